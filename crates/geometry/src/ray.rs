@@ -1,0 +1,103 @@
+//! A ray and the range of distances it looks at.
+
+use glam::{DVec3, Vec3};
+
+/// A closed range of ray parameters `[min, max]`; empty when `min > max`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// Smallest parameter inside.
+    pub min: f32,
+    /// Largest parameter inside; may be infinite.
+    pub max: f32,
+}
+
+impl Interval {
+    /// From the origin to infinity.
+    pub const POSITIVE: Self = Self { min: 0.0, max: f32::INFINITY };
+
+    /// Whether `t` lies inside; false for NaN.
+    pub fn contains(self, t: f32) -> bool {
+        self.min <= t && t <= self.max
+    }
+
+    /// The part that both cover; may be empty.
+    #[must_use]
+    pub fn intersect(self, other: Self) -> Self {
+        Self { min: self.min.max(other.min), max: self.max.min(other.max) }
+    }
+
+    /// Whether no parameter lies inside.
+    pub fn is_empty(self) -> bool {
+        // Written so that a NaN end counts as empty.
+        !(self.min <= self.max)
+    }
+}
+
+/// A half line `origin + t * dir` for `t` in `range`.
+///
+/// `dir` need not be a unit vector; `t` counts in lengths of `dir`, so an affine transform of the ray keeps `t`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Where `t = 0`.
+    pub origin: Vec3,
+    /// Direction; not zero, not necessarily unit.
+    pub dir: Vec3,
+    /// Parameters at which a hit counts.
+    pub range: Interval,
+}
+
+impl Ray {
+    /// A ray over all of `t >= 0`.
+    pub fn new(origin: Vec3, dir: Vec3) -> Self {
+        Self { origin, dir, range: Interval::POSITIVE }
+    }
+
+    /// The point at parameter `t`.
+    pub fn at(&self, t: f32) -> Vec3 {
+        self.origin + t * self.dir
+    }
+
+    /// The same ray that ends at `t_max`.
+    #[must_use]
+    pub fn until(self, t_max: f32) -> Self {
+        Self { range: Interval { max: t_max, ..self.range }, ..self }
+    }
+
+    /// Whether origin and direction are finite and the direction is not zero.
+    pub fn is_valid(&self) -> bool {
+        self.origin.is_finite() && self.dir.is_finite() && self.dir != Vec3::ZERO
+    }
+}
+
+/// A ray in the local space of an analytic shape, in double precision.
+///
+/// Shapes solve for their roots in `f64`, so that the rounding of the roots vanishes beside that of the `f32`
+/// origin; see [`crate::shape`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LocalRay {
+    /// Where `t = 0`, in local space.
+    pub origin: DVec3,
+    /// Direction in local space; not necessarily unit.
+    pub dir: DVec3,
+    /// Parameters at which a hit counts.
+    pub range: Interval,
+}
+
+impl LocalRay {
+    /// The point at parameter `t`.
+    pub fn at(&self, t: f64) -> DVec3 {
+        self.origin + t * self.dir
+    }
+
+    /// Whether a root counts: it lies in the range once it is rounded to the `f32` that callers compare.
+    pub fn accepts(&self, t: f64) -> bool {
+        // The sign is judged before rounding: a root behind the origin stays behind it.
+        t > 0.0 && self.range.contains(t as f32)
+    }
+}
+
+impl From<&Ray> for LocalRay {
+    fn from(ray: &Ray) -> Self {
+        Self { origin: ray.origin.as_dvec3(), dir: ray.dir.as_dvec3(), range: ray.range }
+    }
+}

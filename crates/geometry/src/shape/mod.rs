@@ -1,0 +1,85 @@
+//! The analytic shapes: a closed list, each in its own file, each in its own local space.
+//!
+//! Flat shapes lie in the plane `y = 0` with normal `+y`; round ones have the y axis; a cylinder and a cone
+//! stand on `y = 0`; sphere, box and torus are centred at the origin. A [`crate::Transform`] puts them into the
+//! world. Roots are found in `f64`: next to the rounding of an `f32` ray origin their own error vanishes, which is
+//! what lets [`crate::Hit::spawn`] promise that a ray leaves the shape it started on.
+
+mod sphere;
+
+pub use sphere::Sphere;
+
+use crate::aabb::Aabb;
+use crate::ray::LocalRay;
+use glam::{DVec3, Vec2, Vec3};
+
+/// A point where a ray meets a shape, before the surface around it is worked out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Root {
+    /// Ray parameter.
+    pub t: f64,
+    /// Which part of the shape was met: a face of the box, the cap of a cylinder; 0 where there is one part.
+    pub part: u8,
+}
+
+/// A hit in local space, in `f64`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LocalHit {
+    /// Ray parameter.
+    pub t: f64,
+    /// Position, moved onto the surface.
+    pub p: DVec3,
+    /// Geometric normal; any length but zero.
+    pub ng: DVec3,
+    /// Shading normal; any length, zero for none.
+    pub ns: DVec3,
+    /// Surface parameters.
+    pub uv: Vec2,
+    /// Change of position per unit of `u`.
+    pub dpdu: Vec3,
+    /// Change of position per unit of `v`.
+    pub dpdv: Vec3,
+}
+
+/// A uniformly distributed point on a shape, in local space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AreaSample {
+    /// Position.
+    pub p: DVec3,
+    /// Unit outward normal.
+    pub ng: DVec3,
+    /// Surface parameters.
+    pub uv: Vec2,
+    /// Probability per unit of local area: `1 / area`.
+    pub pdf: f64,
+}
+
+/// What every shape can say of itself.
+pub trait Geometry {
+    /// The nearest root that the ray accepts.
+    fn hit(&self, ray: &LocalRay) -> Option<Root>;
+    /// The surface at a root that [`Geometry::hit`] gave for the same ray.
+    fn surface(&self, ray: &LocalRay, root: Root) -> LocalHit;
+    /// The box around the shape; infinite for the infinite plane.
+    fn bounds(&self) -> Aabb;
+    /// Surface area; infinite for the infinite plane.
+    fn area(&self) -> f64;
+    /// A point uniform by area from `u` in `[0, 1)^2`; `None` where the area is infinite or zero.
+    fn sample(&self, u: Vec2) -> Option<AreaSample>;
+}
+
+/// The closed list of analytic shapes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    /// See [`Sphere`].
+    Sphere(Sphere),
+}
+
+impl Shape {
+    /// The shape behind its common face; a new shape adds its arm here.
+    pub fn geometry(&self) -> &dyn Geometry {
+        match self {
+            Self::Sphere(s) => s,
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! Affine transforms with their inverse, composed in `f64`.
+
+use crate::aabb::Aabb;
+use crate::error_bound::rounded_point;
+use crate::hit::{Hit, SurfacePoint};
+use crate::ray::{LocalRay, Ray};
+use crate::shape::LocalHit;
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+
+/// An invertible affine map from local space to world space. Scales may differ per axis and may mirror.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Transform {
+    to_world: DAffine3,
+    to_local: DAffine3,
+    is_identity: bool,
+}
+
+impl Default for Transform {
+    fn default() -> Self {
+        Self::IDENTITY
+    }
+}
+
+impl Transform {
+    /// Local space is world space.
+    pub const IDENTITY: Self =
+        Self { to_world: DAffine3::IDENTITY, to_local: DAffine3::IDENTITY, is_identity: true };
+
+    /// From the map to world space; `None` when it has no finite inverse.
+    pub fn new(to_world: DAffine3) -> Option<Self> {
+        let determinant = to_world.matrix3.determinant();
+        if !to_world.is_finite() || determinant == 0.0 {
+            return None;
+        }
+        let to_local = to_world.inverse();
+        let is_identity = to_world == DAffine3::IDENTITY;
+        to_local.is_finite().then_some(Self { to_world, to_local, is_identity })
+    }
+
+    /// A shift.
+    pub fn translation(by: Vec3) -> Self {
+        let by = by.as_dvec3();
+        Self {
+            to_world: DAffine3::from_translation(by),
+            to_local: DAffine3::from_translation(-by),
+            is_identity: by == DVec3::ZERO,
+        }
+    }
+
+    /// The map from local to world space.
+    pub fn matrix(&self) -> DAffine3 {
+        self.to_world
+    }
+
+    /// Whether local space is world space.
+    pub fn is_identity(&self) -> bool {
+        self.is_identity
+    }
+
+    /// Whether the map turns right hands into left hands.
+    pub fn is_mirror(&self) -> bool {
+        self.to_world.matrix3.determinant() < 0.0
+    }
+
+    /// A point from local to world space.
+    pub fn point(&self, p: Vec3) -> Vec3 {
+        self.to_world.transform_point3(p.as_dvec3()).as_vec3()
+    }
+
+    /// A point from world to local space.
+    pub fn point_to_local(&self, p: Vec3) -> Vec3 {
+        self.to_local.transform_point3(p.as_dvec3()).as_vec3()
+    }
+
+    /// A displacement from local to world space.
+    pub fn vector(&self, v: Vec3) -> Vec3 {
+        self.to_world.transform_vector3(v.as_dvec3()).as_vec3()
+    }
+
+    /// A normal from local to world space, unit again.
+    pub fn normal(&self, n: Vec3) -> Vec3 {
+        self.normal_f64(n.as_dvec3()).as_vec3()
+    }
+
+    /// Normals map by the inverse transpose, so that they stay at right angles to tangents.
+    fn normal_f64(&self, n: DVec3) -> DVec3 {
+        (self.to_local.matrix3.transpose() * n).normalize_or_zero()
+    }
+
+    /// The ray in local space, `t` kept, for triangle meshes.
+    pub fn ray_to_local(&self, ray: &Ray) -> Ray {
+        if self.is_identity {
+            return *ray;
+        }
+        let local = self.local_ray(ray);
+        Ray { origin: local.origin.as_vec3(), dir: local.dir.as_vec3(), range: ray.range }
+    }
+
+    /// The ray in local space, `t` kept, for analytic shapes.
+    pub fn local_ray(&self, ray: &Ray) -> LocalRay {
+        if self.is_identity {
+            return LocalRay::from(ray);
+        }
+        LocalRay {
+            origin: self.to_local.transform_point3(ray.origin.as_dvec3()),
+            dir: self.to_local.transform_vector3(ray.dir.as_dvec3()),
+            range: ray.range,
+        }
+    }
+
+    /// The smallest box around the image of `bounds`, rounded outward. Infinite sides stay infinite.
+    pub fn bounds(&self, bounds: Aabb) -> Aabb {
+        if self.is_identity || bounds.is_empty() {
+            return bounds;
+        }
+        if !bounds.is_finite() {
+            return Aabb::EVERYTHING;
+        }
+        bounds.corners().into_iter().fold(Aabb::EMPTY, |around, corner| {
+            let p = self.to_world.transform_point3(corner.as_dvec3()).as_vec3();
+            let next_down = Vec3::new(p.x.next_down(), p.y.next_down(), p.z.next_down());
+            let next_up = Vec3::new(p.x.next_up(), p.y.next_up(), p.z.next_up());
+            around.grow(next_down).grow(next_up)
+        })
+    }
+
+    /// A point of a surface in world space, with the error bound that a ray through this transform needs.
+    pub fn surface_point(&self, p: DVec3, ng: DVec3) -> SurfacePoint {
+        if self.is_identity {
+            let p = p.as_vec3();
+            return SurfacePoint {
+                p,
+                p_err: rounded_point(p, Vec3::ZERO),
+                ng: ng.normalize_or_zero().as_vec3(),
+            };
+        }
+        let m = self.to_world.matrix3;
+        let abs = DMat3::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs());
+        let world = self.to_world.transform_point3(p).as_vec3();
+        let p_err = rounded_point(world, (abs * p.abs()).as_vec3());
+        SurfacePoint { p: world, p_err, ng: self.normal_f64(ng).as_vec3() }
+    }
+
+    /// A hit in local space, seen from world space.
+    pub fn hit_to_world(&self, local: &LocalHit) -> Hit {
+        let at = self.surface_point(local.p, local.ng);
+        let ns = self.normal_f64(local.ns).as_vec3();
+        Hit {
+            t: local.t as f32,
+            at,
+            // A zero or wrong-sided shading normal gives way to the geometric one.
+            ns: if ns == Vec3::ZERO || ns.dot(at.ng) < 0.0 { at.ng } else { ns },
+            uv: local.uv,
+            dpdu: self.vector(local.dpdu),
+            dpdv: self.vector(local.dpdv),
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Pixels as they were read, in their own bit depth.
+
+use crate::color::{Rgb, srgb_to_linear};
+use glam::Vec4;
+use std::sync::LazyLock;
+
+/// How stored values map to light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Encoding {
+    /// The sRGB transfer function, on the colour channels only.
+    Srgb,
+    /// Stored values are the values.
+    Linear,
+}
+
+/// Samples in one of the depths that image files have, row by row from the top, channels interleaved.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Samples {
+    /// 8 bits, 255 is 1.
+    U8(Vec<u8>),
+    /// 16 bits, 65535 is 1.
+    U16(Vec<u16>),
+    /// Floats, as they are.
+    F32(Vec<f32>),
+}
+
+/// An image of 1 (grey), 2 (grey, alpha), 3 (RGB) or 4 (RGBA) channels; alpha is straight, not premultiplied.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Image {
+    /// Pixels per row, at least 1.
+    pub width: u32,
+    /// Rows, at least 1.
+    pub height: u32,
+    /// Channels per pixel, 1 to 4.
+    pub channels: u8,
+    /// How colour channels are encoded.
+    pub encoding: Encoding,
+    /// `width * height * channels` values.
+    pub samples: Samples,
+}
+
+/// The 256 linear values of 8-bit sRGB.
+static SRGB_U8: LazyLock<[f32; 256]> =
+    LazyLock::new(|| std::array::from_fn(|i| srgb_to_linear(i as f32 / 255.0)));
+
+impl Image {
+    /// The linear RGBA value of pixel `(x, y)`, `y` counted from the top; alpha is 1 where there is none.
+    ///
+    /// # Panics
+    /// When the pixel lies outside the image.
+    pub fn pixel(&self, x: u32, y: u32) -> Vec4 {
+        let channels = usize::from(self.channels);
+        let first = (y as usize * self.width as usize + x as usize) * channels;
+        let color = |c: usize| self.color_sample(first + c);
+        let plain = |c: usize| self.plain_sample(first + c);
+        match channels {
+            1 => Rgb::splat(color(0)).extend(1.0),
+            2 => Rgb::splat(color(0)).extend(plain(1)),
+            3 => Vec4::new(color(0), color(1), color(2), 1.0),
+            _ => Vec4::new(color(0), color(1), color(2), plain(3)),
+        }
+    }
+
+    /// Bytes that the samples take.
+    pub fn bytes(&self) -> usize {
+        match &self.samples {
+            Samples::U8(v) => v.len(),
+            Samples::U16(v) => 2 * v.len(),
+            Samples::F32(v) => 4 * v.len(),
+        }
+    }
+
+    fn plain_sample(&self, i: usize) -> f32 {
+        match &self.samples {
+            Samples::U8(v) => f32::from(v[i]) / 255.0,
+            Samples::U16(v) => f32::from(v[i]) / 65535.0,
+            Samples::F32(v) => v[i],
+        }
+    }
+
+    fn color_sample(&self, i: usize) -> f32 {
+        match (&self.samples, self.encoding) {
+            (Samples::U8(v), Encoding::Srgb) => SRGB_U8[usize::from(v[i])],
+            (_, Encoding::Srgb) => srgb_to_linear(self.plain_sample(i)),
+            (_, Encoding::Linear) => self.plain_sample(i),
+        }
+    }
+}

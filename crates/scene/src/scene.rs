@@ -1,0 +1,60 @@
+//! The whole scene: arrays and ids.
+
+use crate::camera::Camera;
+use crate::color::Rgb;
+use crate::light::Light;
+use crate::material::Material;
+use crate::object::Object;
+use crate::texture::Texture;
+use heliostat_geometry::TriMesh;
+use std::sync::Arc;
+
+/// What rays see that leave the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Background {
+    /// One radiance everywhere.
+    Constant(Rgb),
+    /// From `bottom` below through `horizon` to `top` above, by the height of the direction.
+    Gradient {
+        /// Straight up.
+        top: Rgb,
+        /// Level.
+        horizon: Rgb,
+        /// Straight down.
+        bottom: Rgb,
+    },
+    /// An equirectangular image, linear, its middle towards `-z`.
+    Image {
+        /// The texture's image, wrapped in u.
+        image: Arc<crate::image::Image>,
+        /// Factor.
+        intensity: Rgb,
+        /// Turn about y in radians, counter-clockwise seen from above.
+        rotation: f32,
+    },
+}
+
+impl Default for Background {
+    fn default() -> Self {
+        Self::Constant(Rgb::ZERO)
+    }
+}
+
+/// A scene at one moment (or over one shutter): arrays that refer to each other by id.
+#[derive(Clone, Debug, Default)]
+pub struct Scene {
+    /// Meshes, shared by objects.
+    pub meshes: Vec<Arc<TriMesh>>,
+    /// Textures, shared by materials.
+    pub textures: Vec<Texture>,
+    /// Materials, shared by objects.
+    pub materials: Vec<Material>,
+    /// What is there to see.
+    pub objects: Vec<Object>,
+    /// What lights it.
+    pub lights: Vec<Light>,
+    /// At least one camera; the first is the default.
+    pub cameras: Vec<Camera>,
+    /// What is seen behind everything.
+    pub background: Background,
+}

@@ -1,0 +1,169 @@
+//! How much work goes into a picture.
+
+/// Reconstruction filters, each with a default radius in pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Filter {
+    /// Equal weight within the radius (0.5).
+    Box,
+    /// Falling linearly to the radius (1.0).
+    Tent,
+    /// A Gaussian of standard deviation radius / 3 (1.5).
+    Gaussian,
+    /// Mitchell and Netravali with B = C = 1/3 (2.0).
+    Mitchell,
+    /// A four-term Blackman-Harris window (1.5).
+    BlackmanHarris,
+    /// A windowed sinc (3.0).
+    Lanczos,
+}
+
+/// How radiance is found along a camera ray.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum IntegratorKind {
+    /// The report's recursion.
+    #[default]
+    Whitted,
+    /// Shading normals as colours.
+    Normals,
+    /// Perpendicular distance, near is white.
+    Depth,
+    /// Surface parameters as colours.
+    Uv,
+    /// Openness to the sky.
+    AmbientOcclusion,
+    /// Steps of the index as a heat map.
+    Cost,
+}
+
+/// A rectangle of pixels: `x0 <= x < x1`, `y0 <= y < y1`, `y` from the top.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PixelRect {
+    /// Left column.
+    pub x0: u32,
+    /// Top row.
+    pub y0: u32,
+    /// Column after the last.
+    pub x1: u32,
+    /// Row after the last.
+    pub y1: u32,
+}
+
+impl PixelRect {
+    /// Columns.
+    pub fn width(&self) -> u32 {
+        self.x1 - self.x0
+    }
+
+    /// Rows.
+    pub fn height(&self) -> u32 {
+        self.y1 - self.y0
+    }
+}
+
+/// Which extra layers come out beside the beauty.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Layers {
+    /// `Z`: perpendicular distance, of the sample nearest to the pixel centre; 1e10 on a miss.
+    pub depth: bool,
+    /// `N.X N.Y N.Z`: shading normal in world space.
+    pub normal: bool,
+    /// `albedo.R albedo.G albedo.B`.
+    pub albedo: bool,
+    /// `P.X P.Y P.Z`: world position.
+    pub position: bool,
+    /// `UV.U UV.V`.
+    pub uv: bool,
+    /// `object_id.Y`: index + 1, 0 on a miss.
+    pub object_id: bool,
+    /// `material_id.Y`: index + 1, 0 on a miss.
+    pub material_id: bool,
+}
+
+impl Layers {
+    /// Every layer.
+    pub const ALL: Self = Self {
+        depth: true,
+        normal: true,
+        albedo: true,
+        position: true,
+        uv: true,
+        object_id: true,
+        material_id: true,
+    };
+}
+
+/// How much work goes into a picture. Any value of a field is valid unless it says otherwise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RenderSettings {
+    /// Size of the whole picture in pixels, at least 1.
+    pub width: u32,
+    /// Size of the whole picture in pixels, at least 1.
+    pub height: u32,
+    /// Only this part is rendered; pixels are the same as in the whole picture.
+    pub region: Option<PixelRect>,
+    /// Camera rays per pixel, at least 1.
+    pub samples: u32,
+    /// How radiance is found.
+    pub integrator: IntegratorKind,
+    /// Reconstruction filter.
+    pub filter: Filter,
+    /// Radius of the filter in pixels, above 0.
+    pub filter_radius: f32,
+    /// Seed of all random numbers.
+    pub seed: u64,
+    /// Reflections and refractions in a row, at most.
+    pub max_depth: u32,
+    /// A branch whose product of weights falls below this is cut.
+    pub min_weight: f32,
+    /// Whether light passes through transparent things, coloured, on its straight way to a surface.
+    pub transparent_shadows: bool,
+    /// Rays per point of the `ambient_occlusion` integrator.
+    pub ao_samples: u32,
+    /// Length of those rays in metres; infinite sees the whole scene.
+    pub ao_distance: f32,
+    /// Extra layers.
+    pub layers: Layers,
+    /// Whether the background is left out of the alpha channel: alpha 0 and black where rays leave the scene.
+    pub transparent_background: bool,
+    /// Index of the camera in the scene.
+    pub camera: usize,
+    /// Threads; 0 for all.
+    pub threads: usize,
+}
+
+impl Default for RenderSettings {
+    fn default() -> Self {
+        Self {
+            width: 960,
+            height: 540,
+            region: None,
+            samples: 16,
+            integrator: IntegratorKind::Whitted,
+            filter: Filter::BlackmanHarris,
+            filter_radius: 1.5,
+            seed: 0,
+            max_depth: 12,
+            min_weight: 1.0 / 512.0,
+            transparent_shadows: false,
+            ao_samples: 16,
+            ao_distance: f32::INFINITY,
+            layers: Layers::default(),
+            transparent_background: false,
+            camera: 0,
+            threads: 0,
+        }
+    }
+}
+
+impl RenderSettings {
+    /// The pixels to render: the region, cut to the picture, or the whole picture.
+    pub fn pixels(&self) -> PixelRect {
+        let whole = PixelRect { x0: 0, y0: 0, x1: self.width, y1: self.height };
+        self.region.map_or(whole, |r| PixelRect {
+            x0: r.x0.min(self.width),
+            y0: r.y0.min(self.height),
+            x1: r.x1.min(self.width),
+            y1: r.y1.min(self.height),
+        })
+    }
+}

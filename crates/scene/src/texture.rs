@@ -1,0 +1,100 @@
+//! Textures: functions of the surface position, described.
+
+use crate::color::Rgb;
+use crate::image::Image;
+use glam::Vec2;
+use std::sync::Arc;
+
+/// What happens outside `[0, 1]`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Wrap {
+    /// The image starts again.
+    #[default]
+    Repeat,
+    /// Every second repetition is mirrored.
+    Mirror,
+    /// The border pixels go on for ever.
+    Clamp,
+}
+
+/// How values between pixel centres are found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Filtering {
+    /// The nearest pixel.
+    Nearest,
+    /// Linear in both directions between four pixels.
+    #[default]
+    Bilinear,
+}
+
+/// Where a checker pattern lives.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CheckerSpace {
+    /// Squares of side 1 in `uv`.
+    #[default]
+    Uv,
+    /// Cubes of side 1 in the local space of the object.
+    Local,
+}
+
+/// Scale, then turn, then shift of the surface parameters, before a texture looks at them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UvTransform {
+    /// Repetitions per unit of `uv`.
+    pub scale: Vec2,
+    /// Counter-clockwise turn in radians.
+    pub rotation: f32,
+    /// Shift in `uv`.
+    pub offset: Vec2,
+}
+
+impl Default for UvTransform {
+    fn default() -> Self {
+        Self { scale: Vec2::ONE, rotation: 0.0, offset: Vec2::ZERO }
+    }
+}
+
+impl UvTransform {
+    /// The transformed surface parameters.
+    pub fn apply(&self, uv: Vec2) -> Vec2 {
+        Vec2::from_angle(self.rotation).rotate(uv * self.scale) + self.offset
+    }
+}
+
+/// The pattern of a texture.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Pattern {
+    /// An image; `v = 0` is its lower edge.
+    Image {
+        /// The pixels, shared between textures that read the same file.
+        image: Arc<Image>,
+        /// Wrapping in u.
+        wrap_u: Wrap,
+        /// Wrapping in v.
+        wrap_v: Wrap,
+        /// Filtering between pixels.
+        filtering: Filtering,
+    },
+    /// Two colours in turn.
+    Checker {
+        /// Colour of the square at the origin.
+        even: Rgb,
+        /// Colour of its neighbours.
+        odd: Rgb,
+        /// What the squares divide.
+        space: CheckerSpace,
+    },
+    /// Stands for a file that could not be read: magenta.
+    Missing,
+}
+
+/// A named texture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texture {
+    /// Name in the scene file, or the path of the image.
+    pub name: String,
+    /// The pattern.
+    pub pattern: Pattern,
+    /// Applied to `uv` (and to `x`, `z` of local space by scale alone).
+    pub uv: UvTransform,
+}
