@@ -1,1 +1,5 @@
-//! Placeholder.
+//! Whitted ray tracing over Heliostat scenes.
+
+pub mod sampler;
+
+pub use sampler::Sampler;
