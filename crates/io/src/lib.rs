@@ -3,5 +3,7 @@
 pub mod error;
 pub mod file;
 pub mod nearest;
+pub mod view;
 
 pub use error::{LoadError, Warning};
+pub use view::{View, ViewTransform};
