@@ -1,0 +1,73 @@
+//! The boundary between the film and what finds radiance along a camera ray.
+//!
+//! The film side makes a [`CameraRay`] and a [`Sampler`], an [`Integrator`] answers with a [`Sample`]. Integrators hold
+//! no state that changes: every random number comes from the sampler, every count goes to the counters.
+
+use crate::counters::RayCounters;
+use crate::sampler::Sampler;
+use crate::world::World;
+use glam::{Vec2, Vec3};
+use heliostat_geometry::Ray;
+use heliostat_scene::{MaterialId, Rgb};
+
+/// A ray of the camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraRay {
+    /// The ray in world space, with a unit direction.
+    pub ray: Ray,
+    /// When it is traced, in `[0, 1]` over the shutter.
+    pub time: f32,
+    /// Position of the camera at that time; the origin of the ray may lie elsewhere on the lens.
+    pub eye: Vec3,
+    /// Unit direction in which the camera looks at that time.
+    pub forward: Vec3,
+}
+
+impl CameraRay {
+    /// Distance of `p` from the camera along the direction in which it looks: the depth of the `Z` layer.
+    pub fn perpendicular_depth(&self, p: Vec3) -> f32 {
+        (p - self.eye).dot(self.forward)
+    }
+}
+
+/// What the ray met first, for the layers beside the beauty.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FirstHit {
+    /// Position in world space.
+    pub p: Vec3,
+    /// Unit shading normal in world space, turned to the viewer.
+    pub normal: Vec3,
+    /// Share of the light that the surface sends on, per channel in `[0, 1]`.
+    pub albedo: Rgb,
+    /// Surface parameters.
+    pub uv: Vec2,
+    /// Index of the object in the scene; `None` for the surface of an area light.
+    pub object: Option<u32>,
+    /// Its material; `None` for the surface of an area light.
+    pub material: Option<MaterialId>,
+}
+
+/// What came along a camera ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Radiance, premultiplied by `alpha`; linear, unbounded above.
+    pub radiance: Rgb,
+    /// Coverage in `[0, 1]`: 1 minus the weight with which the ray left the scene unbent or refracted, when the background is
+    /// transparent.
+    pub alpha: f32,
+    /// The first surface that is not cut away, if any.
+    pub first: Option<FirstHit>,
+}
+
+/// Finds the radiance along a camera ray.
+pub trait Integrator: Sync {
+    /// The radiance that arrives along `ray`. The caller counts the camera ray itself in `counters.camera`; everything
+    /// that follows is counted here.
+    fn radiance(
+        &self,
+        world: &World<'_>,
+        ray: &CameraRay,
+        sampler: &mut Sampler,
+        counters: &mut RayCounters,
+    ) -> Sample;
+}
