@@ -1,0 +1,52 @@
+//! What a ray met: a surface point and whose it is.
+
+use glam::Vec3;
+use heliostat_geometry::Hit;
+use heliostat_scene::{MaterialId, Rgb};
+
+/// Whose surface was met.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Owner {
+    /// An object of the scene.
+    Object {
+        /// Index into [`heliostat_scene::Scene::objects`].
+        index: u32,
+        /// The material of the surface.
+        material: MaterialId,
+    },
+    /// The visible surface of an area light: index into [`heliostat_scene::Scene::lights`].
+    Light(u32),
+}
+
+/// A hit in world space and what shading needs to know besides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceHit {
+    /// The hit in world space.
+    pub hit: Hit,
+    /// Whose surface it is.
+    pub owner: Owner,
+    /// Position in the local space of the owner.
+    pub local: Vec3,
+    /// Interpolated vertex colour, where the mesh has one.
+    pub color: Option<Rgb>,
+    /// The triangle and the weights of its corners, on meshes.
+    pub triangle: Option<(u32, [f32; 3])>,
+}
+
+impl SurfaceHit {
+    /// The object, unless the surface belongs to a light.
+    pub fn object(&self) -> Option<u32> {
+        match self.owner {
+            Owner::Object { index, .. } => Some(index),
+            Owner::Light(_) => None,
+        }
+    }
+
+    /// The material, unless the surface belongs to a light.
+    pub fn material(&self) -> Option<MaterialId> {
+        match self.owner {
+            Owner::Object { material, .. } => Some(material),
+            Owner::Light(_) => None,
+        }
+    }
+}

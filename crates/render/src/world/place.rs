@@ -1,0 +1,55 @@
+//! Where a geometry stands over the shutter.
+
+use glam::{DAffine3, DMat3};
+use heliostat_geometry::{Aabb, Transform};
+use heliostat_scene::Motion;
+
+/// Where something is over the shutter.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Place<'s> {
+    /// It does not move.
+    Still(&'s Transform),
+    /// It moves: the matrix of a moment is worked out for each ray.
+    Moving(&'s Motion),
+}
+
+impl<'s> Place<'s> {
+    /// The place of something that moves so.
+    pub(crate) fn of(motion: &'s Motion) -> Self {
+        if motion.is_moving() { Self::Moving(motion) } else { Self::Still(motion.first()) }
+    }
+
+    /// Looks at the transform of a moment; `None` where the interpolated matrix has no inverse and nothing is seen.
+    #[inline]
+    pub(crate) fn at<R>(&self, time: f32, look: impl FnOnce(&Transform) -> R) -> Option<R> {
+        match self {
+            Self::Still(transform) => Some(look(transform)),
+            Self::Moving(motion) => interpolate(motion, time).map(|transform| look(&transform)),
+        }
+    }
+
+    /// The box in world space of what has the box `local`, over the whole shutter.
+    ///
+    /// Points move on straight lines between two poses, so the boxes at the poses bound all that lies between.
+    pub(crate) fn bounds(&self, local: Aabb) -> Aabb {
+        match self {
+            Self::Still(transform) => transform.bounds(local),
+            Self::Moving(motion) => {
+                motion.poses().iter().fold(Aabb::EMPTY, |around, pose| around.union(pose.bounds(local)))
+            }
+        }
+    }
+}
+
+/// The transform of a moving thing: its matrices at the poses around `time`, interpolated linearly.
+fn interpolate(motion: &Motion, time: f32) -> Option<Transform> {
+    let (a, b, weight) = motion.around(time);
+    let (a, b, weight) = (a.matrix(), b.matrix(), f64::from(weight));
+    let mix = |a, b| a + weight * (b - a);
+    let columns = |m: DMat3| [m.x_axis, m.y_axis, m.z_axis];
+    let (from, to) = (columns(a.matrix3), columns(b.matrix3));
+    Transform::new(DAffine3 {
+        matrix3: DMat3::from_cols(mix(from[0], to[0]), mix(from[1], to[1]), mix(from[2], to[2])),
+        translation: mix(a.translation, b.translation),
+    })
+}
