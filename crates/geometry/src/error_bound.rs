@@ -7,7 +7,7 @@
 //! Wächter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems, 2019.
 
 use crate::ray::Interval;
-use glam::Vec3;
+use glam::{DMat3, DVec3, Vec3};
 
 /// Half the distance between 1 and the next `f32`: the largest relative error of one rounded operation.
 pub const UNIT_ROUNDOFF: f32 = f32::EPSILON * 0.5;
@@ -16,6 +16,22 @@ pub const UNIT_ROUNDOFF: f32 = f32::EPSILON * 0.5;
 pub const fn gamma(n: u32) -> f32 {
     let nu = n as f32 * UNIT_ROUNDOFF;
     nu / (1.0 - nu)
+}
+
+/// Bound of the relative error of `n` rounded `f64` operations in a row.
+pub const fn gamma_f64(n: u32) -> f64 {
+    let nu = n as f64 * (f64::EPSILON * 0.5);
+    nu / (1.0 - nu)
+}
+
+/// Bound of the error, per axis, of a point computed in `f64` on a triangle, and of the distance of a ray from
+/// there to the plane of the triangle.
+///
+/// Two products and sums along the edges make the point; the cross product and the scalar product of the next
+/// intersection add eight operations, on lengths of up to twice the largest coordinate.
+pub fn triangle_point(corners: [Vec3; 3]) -> f64 {
+    let extent = corners[0].abs().max(corners[1].abs()).max(corners[2].abs()).max_element();
+    gamma_f64(16) * 2.0 * f64::from(extent)
 }
 
 /// Grows the slab distances `near <= far` by the error of `(plane - origin) / dir`, outward on both sides.
@@ -31,8 +47,24 @@ pub fn grow_slab(near: f32, far: f32) -> Interval {
 ///
 /// `extent` is, per axis, the largest magnitude that takes part in that second rounding: the absolute value of
 /// the linear map times the absolute value of the point in object space (0 where the spaces are the same).
-pub fn rounded_point(p: Vec3, extent: Vec3) -> Vec3 {
-    gamma(2) * (p.abs() + extent) + Vec3::splat(f32::MIN_POSITIVE)
+///
+/// `slack` is what the arithmetic in `f64` before that left, per axis; it matters where the coordinates of `p` are
+/// much smaller than the numbers they came from.
+pub fn rounded_point(p: Vec3, extent: Vec3, slack: DVec3) -> Vec3 {
+    gamma(2) * (p.abs() + extent + slack.as_vec3()) + slack.as_vec3() + Vec3::splat(f32::MIN_POSITIVE)
+}
+
+/// Bound of the error, per axis, with which a point returns from world space to local space and back, in `f64`.
+///
+/// `magnitude` is the absolute world position plus the absolute translation. Twelve operations each for the map,
+/// its inverse, and the inverse's own error, each amplified by at most the absolute map times the absolute inverse.
+pub fn round_trip(linear: DMat3, inverse: DMat3, magnitude: DVec3) -> DVec3 {
+    gamma_f64(36) * (abs(linear) * (abs(inverse) * magnitude))
+}
+
+/// A matrix with the absolute value of every element.
+pub fn abs(m: DMat3) -> DMat3 {
+    DMat3::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs())
 }
 
 /// Moves `p` along the unit normal `n`, to the side that `dir` points to, out of the box of error `p_err`.
@@ -40,7 +72,8 @@ pub fn rounded_point(p: Vec3, extent: Vec3) -> Vec3 {
 /// The result is rounded away from `p`, so that even a bound below one ulp moves the point.
 pub fn offset_origin(p: Vec3, p_err: Vec3, n: Vec3, dir: Vec3) -> Vec3 {
     let distance = n.abs().dot(p_err);
-    let offset = if dir.dot(n) < 0.0 { -distance * n } else { distance * n };
+    // In `f64`, or the rounding of the products could turn a grazing ray to the wrong side.
+    let offset = if dir.as_dvec3().dot(n.as_dvec3()) < 0.0 { -distance * n } else { distance * n };
     let moved = p + offset;
     let away = |moved: f32, offset: f32| {
         if offset > 0.0 {

@@ -35,6 +35,17 @@ impl SurfacePoint {
     }
 }
 
+/// A random point on a surface in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceSample {
+    /// Position with its error bound and the geometric normal (outward).
+    pub at: SurfacePoint,
+    /// Surface parameters.
+    pub uv: Vec2,
+    /// Probability per square metre of world space.
+    pub pdf: f32,
+}
+
 /// Where and how a ray met a surface, in the space of the ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {

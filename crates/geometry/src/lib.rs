@@ -32,8 +32,8 @@ pub mod warp;
 
 pub use aabb::Aabb;
 pub use frame::OrthonormalFrame;
-pub use hit::{Hit, SurfacePoint};
-pub use mesh::TriMesh;
+pub use hit::{Hit, SurfacePoint, SurfaceSample};
+pub use mesh::{MeshError, TriMesh};
 pub use ray::{Interval, Ray};
 pub use shape::Shape;
 pub use transform::Transform;

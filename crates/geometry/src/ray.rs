@@ -90,9 +90,12 @@ impl LocalRay {
     }
 
     /// Whether a root counts: it lies in the range once it is rounded to the `f32` that callers compare.
+    #[inline]
     pub fn accepts(&self, t: f64) -> bool {
-        // The sign is judged before rounding: a root behind the origin stays behind it.
-        t > 0.0 && self.range.contains(t as f32)
+        // The sign is judged before rounding: a root behind the origin stays behind it. A root beyond all `f32`
+        // is nowhere.
+        let rounded = t as f32;
+        t > 0.0 && rounded < f32::INFINITY && self.range.contains(rounded)
     }
 }
 

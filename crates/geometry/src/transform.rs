@@ -1,10 +1,10 @@
 //! Affine transforms with their inverse, composed in `f64`.
 
 use crate::aabb::Aabb;
-use crate::error_bound::rounded_point;
-use crate::hit::{Hit, SurfacePoint};
+use crate::error_bound::{abs, round_trip, rounded_point};
+use crate::hit::{Hit, SurfacePoint, SurfaceSample};
 use crate::ray::{LocalRay, Ray};
-use crate::shape::LocalHit;
+use crate::shape::{AreaSample, LocalHit};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 /// An invertible affine map from local space to world space. Scales may differ per axis and may mirror.
@@ -32,7 +32,11 @@ impl Transform {
         if !to_world.is_finite() || determinant == 0.0 {
             return None;
         }
-        let to_local = to_world.inverse();
+        let mut to_local = to_world.inverse();
+        // One step of Newton's iteration, so that the error bound of a round trip need not know the determinant.
+        let residual = 2.0 * DMat3::IDENTITY - to_world.matrix3 * to_local.matrix3;
+        to_local.matrix3 *= residual;
+        to_local.translation = -(to_local.matrix3 * to_world.translation);
         let is_identity = to_world == DAffine3::IDENTITY;
         to_local.is_finite().then_some(Self { to_world, to_local, is_identity })
     }
@@ -125,25 +129,46 @@ impl Transform {
     }
 
     /// A point of a surface in world space, with the error bound that a ray through this transform needs.
-    pub fn surface_point(&self, p: DVec3, ng: DVec3) -> SurfacePoint {
+    ///
+    /// `p`, `p_err` and `ng` as in [`LocalHit`].
+    pub fn surface_point(&self, p: DVec3, p_err: f64, ng: DVec3) -> SurfacePoint {
         if self.is_identity {
             let p = p.as_vec3();
-            return SurfacePoint {
-                p,
-                p_err: rounded_point(p, Vec3::ZERO),
-                ng: ng.normalize_or_zero().as_vec3(),
-            };
+            let p_err = rounded_point(p, Vec3::ZERO, DVec3::splat(p_err));
+            return SurfacePoint { p, p_err, ng: ng.normalize_or_zero().as_vec3() };
         }
-        let m = self.to_world.matrix3;
-        let abs = DMat3::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs());
-        let world = self.to_world.transform_point3(p).as_vec3();
-        let p_err = rounded_point(world, (abs * p.abs()).as_vec3());
-        SurfacePoint { p: world, p_err, ng: self.normal_f64(ng).as_vec3() }
+        let linear = self.to_world.matrix3;
+        let world = self.to_world.transform_point3(p);
+        let magnitude = world.abs() + self.to_world.translation.abs();
+        let slack = abs(linear) * DVec3::splat(p_err) + round_trip(linear, self.to_local.matrix3, magnitude);
+        SurfacePoint {
+            p: world.as_vec3(),
+            p_err: rounded_point(world.as_vec3(), (abs(linear) * p.abs()).as_vec3(), slack),
+            ng: self.normal_f64(ng).as_vec3(),
+        }
+    }
+
+    /// How much larger a small piece of surface with local normal `ng` (any length) is in world space.
+    ///
+    /// # Source
+    /// The cofactor matrix maps area vectors (Nanson's relation): `dA = |det M| |M^-T n| da`.
+    pub fn area_stretch(&self, ng: DVec3) -> f64 {
+        let determinant = self.to_world.matrix3.determinant().abs();
+        determinant * (self.to_local.matrix3.transpose() * ng.normalize_or_zero()).length()
+    }
+
+    /// A point uniform by local area, seen from world space: its density becomes one over world area.
+    pub fn sample_to_world(&self, sample: &AreaSample) -> SurfaceSample {
+        SurfaceSample {
+            at: self.surface_point(sample.p, sample.p_err, sample.ng),
+            uv: sample.uv,
+            pdf: (sample.pdf / self.area_stretch(sample.ng)) as f32,
+        }
     }
 
     /// A hit in local space, seen from world space.
     pub fn hit_to_world(&self, local: &LocalHit) -> Hit {
-        let at = self.surface_point(local.p, local.ng);
+        let at = self.surface_point(local.p, local.p_err, local.ng);
         let ns = self.normal_f64(local.ns).as_vec3();
         Hit {
             t: local.t as f32,

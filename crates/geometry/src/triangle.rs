@@ -1,1 +1,197 @@
-//! Placeholder.
+//! Ray against triangle, watertight: a ray never slips through the edge or vertex that triangles share.
+//!
+//! The test runs in the plane across the ray, where every vertex lands on one point whatever triangle it belongs
+//! to, and the sign of an edge function is exact; so neighbours agree on which side of their edge the ray
+//! passes. Both sides of a triangle are hit. This module knows one triangle; the arrays are in [`crate::mesh`].
+//!
+//! The distance is not interpolated in `f32` as in the paper but taken from the plane in `f64`, so that a ray that
+//! [`crate::Hit::spawn`] moved off the triangle sees it behind itself, at any scale.
+//!
+//! # Source
+//! Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
+
+use crate::ray::{Interval, Ray};
+use glam::{DVec3, Vec3};
+
+/// A ray with the shear that turns its direction into the third axis, worked out once per ray.
+///
+/// ```
+/// use glam::Vec3;
+/// use heliostat_geometry::triangle::{TriangleRay, intersect};
+/// use heliostat_geometry::{Interval, Ray};
+///
+/// let ray = TriangleRay::new(&Ray::new(Vec3::new(0.25, 0.25, 2.0), Vec3::NEG_Z));
+/// let hit = intersect(&ray, Interval::POSITIVE, [Vec3::ZERO, Vec3::X, Vec3::Y]).unwrap();
+/// assert_eq!((hit.t, hit.barycentric), (2.0, [0.5, 0.25, 0.25]));
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct TriangleRay {
+    ray: Ray,
+    /// The axis along which the direction is longest; the shear keeps its coordinate.
+    along: Axis,
+    /// Slopes of the direction along the other two axes (in cyclic order) over `along`.
+    slope: [f32; 2],
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Axis {
+    X,
+    Y,
+    Z,
+}
+
+impl Axis {
+    /// The coordinates of `v` in cyclic order, this axis last.
+    #[inline(always)]
+    fn last(self, v: Vec3) -> (f32, f32, f32) {
+        match self {
+            Self::X => (v.y, v.z, v.x),
+            Self::Y => (v.z, v.x, v.y),
+            Self::Z => (v.x, v.y, v.z),
+        }
+    }
+
+    #[inline]
+    fn of(self, v: DVec3) -> f64 {
+        match self {
+            Self::X => v.x,
+            Self::Y => v.y,
+            Self::Z => v.z,
+        }
+    }
+}
+
+impl TriangleRay {
+    /// Prepares `ray`; worth it once per ray and space, not per triangle.
+    #[inline]
+    pub fn new(ray: &Ray) -> Self {
+        let size = ray.dir.abs();
+        let along = if size.x > size.y && size.x > size.z {
+            Axis::X
+        } else if size.y > size.z {
+            Axis::Y
+        } else {
+            Axis::Z
+        };
+        let (x, y, z) = along.last(ray.dir);
+        Self { ray: *ray, along, slope: [x / z, y / z] }
+    }
+
+    /// The ray it was made from.
+    #[inline]
+    pub fn ray(&self) -> &Ray {
+        &self.ray
+    }
+
+    /// Where a corner, relative to the origin, lands in the plane across the ray.
+    ///
+    /// It must stay a function of the ray and the corner alone: on that the watertightness rests.
+    #[inline(always)]
+    fn project(&self, along: Axis, corner: Vec3) -> [f32; 2] {
+        let (x, y, z) = along.last(corner);
+        [x - self.slope[0] * z, y - self.slope[1] * z]
+    }
+}
+
+/// Where a ray meets a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TriangleHit {
+    /// Ray parameter.
+    pub t: f32,
+    /// Weights of the corners a, b, c; each in `[0, 1]`, their sum 1 up to rounding.
+    pub barycentric: [f32; 3],
+}
+
+/// Where `ray` meets the triangle `corners`, from either side, at a `t > 0` inside `range`.
+///
+/// `range` stands beside the ray because it shrinks during a search. Triangles without area, corners that are not
+/// finite and rays without direction give `None`.
+#[inline]
+pub fn intersect(ray: &TriangleRay, range: Interval, corners: [Vec3; 3]) -> Option<TriangleHit> {
+    // One branch per ray direction, always taken the same way, is cheaper than selecting every coordinate.
+    match ray.along {
+        Axis::X => intersect_along(ray, Axis::X, range, corners),
+        Axis::Y => intersect_along(ray, Axis::Y, range, corners),
+        Axis::Z => intersect_along(ray, Axis::Z, range, corners),
+    }
+}
+
+/// [`intersect`] with the axis as a constant after inlining.
+#[inline(always)]
+fn intersect_along(
+    ray: &TriangleRay,
+    along: Axis,
+    range: Interval,
+    corners: [Vec3; 3],
+) -> Option<TriangleHit> {
+    // Look down the ray: the origin becomes (0, 0), and the ray the point there.
+    let [a, b, c] = corners.map(|corner| ray.project(along, corner - ray.ray.origin));
+
+    // Twice the signed areas that the point spans with each edge. The two products are rounded in the same
+    // direction as they compare, so a sign is right or the difference is 0.
+    let u = c[0] * b[1] - c[1] * b[0];
+    let v = a[0] * c[1] - a[1] * c[0];
+    let w = b[0] * a[1] - b[1] * a[0];
+
+    // The point is outside when it lies left of one edge and right of another.
+    if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
+        return None;
+    }
+
+    // Decide the rare doubtful cases with products that `f64` holds exactly.
+    let area = u + v + w;
+    let doubtful = u == 0.0 || v == 0.0 || w == 0.0 || !area.is_normal();
+    let barycentric = if doubtful { exact_weights([a, b, c])? } else { [u / area, v / area, w / area] };
+
+    // Find the distance to the plane, and see whether it counts.
+    let t = plane_distance(ray, corners, barycentric)? as f32;
+    (range.contains(t) && t < f32::INFINITY).then_some(TriangleHit { t, barycentric })
+}
+
+/// The barycentric weights by edge functions whose products are exact; `None` when the point is outside.
+#[cold]
+#[inline(never)]
+fn exact_weights(projected: [[f32; 2]; 3]) -> Option<[f32; 3]> {
+    let [a, b, c] = projected.map(|p| p.map(f64::from));
+    let u = c[0] * b[1] - c[1] * b[0];
+    let v = a[0] * c[1] - a[1] * c[0];
+    let w = b[0] * a[1] - b[1] * a[0];
+    if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
+        return None;
+    }
+    let area = u + v + w;
+    // A triangle seen edge on covers nothing; a NaN ends here too.
+    (area.abs() > 0.0).then(|| [(u / area) as f32, (v / area) as f32, (w / area) as f32])
+}
+
+/// The distance to the plane of a triangle that the line of the ray is known to meet; `None` behind the origin.
+#[inline]
+fn plane_distance(ray: &TriangleRay, corners: [Vec3; 3], weights: [f32; 3]) -> Option<f64> {
+    let (origin, dir) = (ray.ray.origin.as_dvec3(), ray.ray.dir.as_dvec3());
+    let [a, b, c] = corners.map(|corner| corner.as_dvec3() - origin);
+    let normal = (b - a).cross(c - a);
+    if normal == DVec3::ZERO {
+        return None;
+    }
+
+    // No point of a triangle is nearer than its nearest corner or farther than its farthest, measured along the
+    // sheared axis. On a triangle seen almost edge on this holds the quotient below to where the triangle is.
+    let inverse = 1.0 / ray.along.of(dir);
+    let at = [a, b, c].map(|corner| ray.along.of(corner) * inverse);
+    let nearest = at[0].min(at[1]).min(at[2]);
+    let farthest = at[0].max(at[1]).max(at[2]);
+
+    // The sign of the quotient decides only when the triangle reaches back to the origin: a triangle that is wholly
+    // ahead is hit, or a ray along a silhouette could leave a closed mesh.
+    let facing = normal.dot(dir);
+    let t = normal.dot(a) / facing;
+    if !(t > 0.0 && facing != 0.0) {
+        if !(nearest > 0.0) {
+            return None;
+        }
+        if facing == 0.0 {
+            return Some((0..3).map(|i| f64::from(weights[i]) * at[i]).sum());
+        }
+    }
+    Some(t.max(nearest).min(farthest))
+}

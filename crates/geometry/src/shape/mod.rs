@@ -29,6 +29,8 @@ pub struct LocalHit {
     pub t: f64,
     /// Position, moved onto the surface.
     pub p: DVec3,
+    /// Bound of the error of `p` and of the next root that starts there, in `f64` arithmetic, per axis.
+    pub p_err: f64,
     /// Geometric normal; any length but zero.
     pub ng: DVec3,
     /// Shading normal; any length, zero for none.
@@ -46,6 +48,8 @@ pub struct LocalHit {
 pub struct AreaSample {
     /// Position.
     pub p: DVec3,
+    /// As [`LocalHit::p_err`].
+    pub p_err: f64,
     /// Unit outward normal.
     pub ng: DVec3,
     /// Surface parameters.

@@ -2,6 +2,7 @@
 
 use super::{AreaSample, Geometry, LocalHit, Root};
 use crate::aabb::Aabb;
+use crate::error_bound::gamma_f64;
 use crate::ray::LocalRay;
 use glam::{DVec3, Vec2, Vec3};
 use std::f64::consts::{PI, TAU};
@@ -40,6 +41,7 @@ impl Geometry for Sphere {
         LocalHit {
             t: root.t,
             p,
+            p_err: gamma_f64(16) * f64::from(self.radius),
             ng: n,
             ns: n,
             uv: Vec2::new((phi / TAU) as f32, (theta / PI + 0.5) as f32),
@@ -65,6 +67,7 @@ impl Geometry for Sphere {
         let v = y.asin() / PI + 0.5;
         Some(AreaSample {
             p: f64::from(self.radius) * ng,
+            p_err: gamma_f64(16) * f64::from(self.radius),
             ng,
             uv: Vec2::new(u.x, v as f32),
             pdf: 1.0 / self.area(),

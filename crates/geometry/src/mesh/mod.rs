@@ -1,9 +1,30 @@
-//! Indexed triangle meshes: plain arrays.
+//! Indexed triangle meshes: plain arrays, and what can be said of one triangle.
+//!
+//! Search structures over the triangles are the business of the index crate.
+
+mod normals;
+mod surface;
+mod validate;
+
+pub use validate::MeshError;
 
 use crate::aabb::Aabb;
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 /// Triangles over shared vertices. Vertex arrays other than the positions are empty or of the same length.
+///
+/// ```
+/// use glam::Vec3;
+/// use heliostat_geometry::TriMesh;
+///
+/// let mesh = TriMesh {
+///     positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+///     triangles: vec![[0, 1, 2]],
+///     ..TriMesh::default()
+/// };
+/// assert!(mesh.validate().is_ok());
+/// assert_eq!(mesh.area(0), 0.5);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TriMesh {
     /// Vertex positions in local space.
@@ -22,11 +43,13 @@ pub struct TriMesh {
 
 impl TriMesh {
     /// The corners of triangle `i`.
+    #[inline]
     pub fn corners(&self, i: u32) -> [Vec3; 3] {
         self.triangles[i as usize].map(|v| self.positions[v as usize])
     }
 
     /// The material slot of triangle `i`.
+    #[inline]
     pub fn slot(&self, i: u32) -> u16 {
         self.slots.get(i as usize).copied().unwrap_or(0)
     }
@@ -34,5 +57,16 @@ impl TriMesh {
     /// The box around all triangles.
     pub fn bounds(&self) -> Aabb {
         Aabb::of_points(self.triangles.iter().flatten().map(|&v| self.positions[v as usize]))
+    }
+
+    /// The area of a triangle, in `f64`.
+    pub fn area(&self, triangle: u32) -> f64 {
+        0.5 * self.winding_normal(triangle).length()
+    }
+
+    /// The normal of a triangle by its winding; its length is twice the area.
+    fn winding_normal(&self, triangle: u32) -> DVec3 {
+        let [a, b, c] = self.corners(triangle).map(|p| p.as_dvec3());
+        (b - a).cross(c - a)
     }
 }
