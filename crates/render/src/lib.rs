@@ -1,6 +1,7 @@
 //! Whitted ray tracing over Heliostat scenes.
 
 pub mod counters;
+pub mod filter;
 pub mod integrator;
 pub mod sampler;
 pub mod world;
