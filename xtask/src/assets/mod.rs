@@ -22,6 +22,8 @@ pub(crate) fn run() -> Outcome {
         ("meshes/block.obj", solids::block([11, 18, 30], [1.1, 1.8, 3.0])),
         ("meshes/sphere.obj", solids::icosphere(5)),
         ("meshes/facets.obj", solids::icosphere(2)),
+        ("meshes/prism.obj", solids::prism()),
+        ("meshes/bird.obj", bird::mesh(9_002)),
         ("large/bird.obj", bird::mesh(48_485)),
     ];
     for (name, mesh) in meshes {

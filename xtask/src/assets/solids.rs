@@ -97,3 +97,17 @@ fn subdivide(mesh: &mut Mesh) {
     }
     mesh.triangles = finer;
 }
+
+/// A right prism of unit height on `y = 0` whose base is a right isosceles triangle with legs of length 1, the long
+/// side towards `+z`: the glass that turns a picture around by total internal reflection.
+pub(super) fn prism() -> Mesh {
+    let half = 0.5_f64.sqrt();
+    let base = [(-half, 0.25), (half, 0.25), (0.0, 0.25 - half)];
+    let positions = [0.0, 1.0].into_iter().flat_map(|y| base.map(|(x, z)| DVec3::new(x, y, z))).collect();
+    let mut triangles = vec![[0, 2, 1], [3, 4, 5]];
+    for i in 0..3 {
+        let j = (i + 1) % 3;
+        triangles.extend([[i, j, j + 3], [i, j + 3, i + 3]]);
+    }
+    Mesh { positions, triangles }
+}
