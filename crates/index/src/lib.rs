@@ -1,1 +1,60 @@
-//! Placeholder.
+//! A hand-written BSP tree for ray queries over any primitives, with brute force as its truth.
+//!
+//! [`BspTree`] cuts the box around all primitives by axis-aligned planes into disjoint cells. A ray walks through
+//! the cells it meets, front to back, and tests the primitives they name; once the nearest hit lies before the
+//! next cell, it is done. Three structures answer the same queries, [`RayIndex`]: the tree, [`BruteForce`] (every
+//! primitive, always: slow and beyond doubt) and, with feature `reference`, the BVH of the `obvhs` crate.
+//!
+//! The tree knows its primitives only by their boxes ([`Primitives`]); what a hit *is* decides a closure of the
+//! caller. [`MeshTree`] is the same tree with the closure for triangle meshes built in.
+//!
+//! ```
+//! use heliostat_geometry::{Aabb, Ray};
+//! use heliostat_index::{BspTree, BuildParams, RayIndex};
+//! use glam::Vec3;
+//!
+//! // Ten balls in a row along x, known to the tree by their boxes.
+//! let centres: Vec<Vec3> = (0..10).map(|i| Vec3::new(3.0 * i as f32, 0.0, 0.0)).collect();
+//! let boxes: Vec<Aabb> =
+//!     centres.iter().map(|&c| Aabb { min: c - Vec3::ONE, max: c + Vec3::ONE }).collect();
+//! let tree = BspTree::build(&boxes, &BuildParams::SAH)?;
+//!
+//! // The closure decides what is hit: here the ball inside the box.
+//! let ball = |i: u32, ray: &Ray| {
+//!     let to_centre = centres[i as usize] - ray.origin;
+//!     let along = to_centre.dot(ray.dir) / ray.dir.length_squared();
+//!     let miss = (to_centre - along * ray.dir).length_squared();
+//!     let t = along - ((1.0 - miss).max(0.0) / ray.dir.length_squared()).sqrt();
+//!     (miss <= 1.0 && ray.range.contains(t)).then_some((t, ()))
+//! };
+//! let ray = Ray::new(Vec3::new(-5.0, 0.0, 0.0), Vec3::X);
+//! let found = tree.closest_hit(&ray, ball).expect("the ray runs along the row");
+//! assert_eq!((found.primitive, found.t), (0, 4.0));
+//! # Ok::<(), heliostat_index::BuildError>(())
+//! ```
+//!
+//! # What holds
+//!
+//! - **Nothing is lost.** A cell ends a search, but never rejects a hit for lying an ulp outside; distances to planes
+//!   are grown by the rounding error of a ray ([`heliostat_geometry::error_bound::cell_padding`]), so a ray along a
+//!   split plane sees both sides.
+//! - **Ties go to the lower primitive id**, in every structure: the answer does not depend on the tree.
+//! - **Building ends.** Depth, references and time are bounded for any input; see [`BuildParams`].
+//!
+//! # Reading order
+//!
+//! [`primitives`], [`query`], [`bsp`], [`brute`].
+
+pub mod brute;
+pub mod bsp;
+mod clip;
+pub mod primitives;
+pub mod query;
+
+pub use brute::BruteForce;
+pub use bsp::{
+    BspTree, BuildError, BuildParams, ExportWhat, InvalidTree, SahCosts, SplitRule, TraversalCost, TreeStats,
+    export_obj,
+};
+pub use primitives::Primitives;
+pub use query::{Found, RayIndex};
