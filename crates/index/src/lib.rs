@@ -43,18 +43,25 @@
 //!
 //! # Reading order
 //!
-//! [`primitives`], [`query`], [`bsp`], [`brute`].
+//! [`primitives`], [`query`], [`bsp`], [`brute`], [`mesh_tree`], [`verify`].
 
 pub mod brute;
 pub mod bsp;
 mod clip;
+pub mod mesh_tree;
 pub mod primitives;
 pub mod query;
+#[cfg(feature = "reference")]
+pub mod reference;
+pub mod verify;
 
 pub use brute::BruteForce;
 pub use bsp::{
     BspTree, BuildError, BuildParams, ExportWhat, InvalidTree, SahCosts, SplitRule, TraversalCost, TreeStats,
     export_obj,
 };
+pub use mesh_tree::{MeshHit, MeshTree};
 pub use primitives::Primitives;
 pub use query::{Found, RayIndex};
+#[cfg(feature = "reference")]
+pub use reference::ReferenceBvh;

@@ -95,7 +95,9 @@ pub(crate) fn build<P: Primitives + ?Sized>(
 }
 
 /// Splits the primitives into those with a finite box and the ids of the others.
-fn gather<P: Primitives + ?Sized>(primitives: &P) -> Result<(Vec<Reference>, Vec<u32>), BuildError> {
+pub(crate) fn gather<P: Primitives + ?Sized>(
+    primitives: &P,
+) -> Result<(Vec<Reference>, Vec<u32>), BuildError> {
     // The highest id is kept free as a mark.
     let count = u32::try_from(primitives.len())
         .ok()

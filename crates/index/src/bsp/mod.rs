@@ -9,7 +9,7 @@
 //! [`params`] says how a tree is built, `build` does it, with the planes that `split` and `sah` choose; `traverse`
 //! walks a ray through it. [`stats`], [`validate`] and [`export`] look at the result.
 
-mod build;
+pub(crate) mod build;
 pub mod export;
 mod node;
 pub mod params;
@@ -18,7 +18,7 @@ mod split;
 pub mod stats;
 pub mod traverse;
 pub mod validate;
-mod visited;
+pub(crate) mod visited;
 
 pub use export::{ExportWhat, export_obj};
 pub use params::{BuildError, BuildParams, SahCosts, SplitRule};

@@ -1,6 +1,7 @@
 //! How a tree is built, and what can go wrong.
 
 use heliostat_geometry::Aabb;
+use heliostat_geometry::mesh::MeshError;
 use std::fmt;
 use std::str::FromStr;
 
@@ -138,6 +139,8 @@ pub enum BuildError {
         /// What it said.
         bounds: Aabb,
     },
+    /// The mesh does not hold together.
+    Mesh(MeshError),
     /// More primitives, nodes or references than ids can name.
     TooLarge {
         /// What there is too much of.
@@ -156,6 +159,7 @@ impl fmt::Display for BuildError {
             Self::Bounds { primitive, bounds: Aabb { min, max } } => {
                 write!(f, "primitive {primitive} has no place in space: its box is {min} to {max}")
             }
+            Self::Mesh(error) => error.fmt(f),
             Self::TooLarge { what } => write!(f, "the tree is too large: too many {what}"),
             Self::Params { what } => write!(f, "wrong build settings: {what}"),
         }

@@ -1,0 +1,205 @@
+//! Agreement of several indices over one mesh, ray by ray, judged by brute force.
+//!
+//! Ray number `i` of a seed is always the same ray, so that a disagreement is replayed by its number, and ranges of
+//! numbers can be traced on any number of threads.
+
+use crate::bsp::{BuildError, BuildParams};
+use crate::mesh_tree::{MeshHit, MeshTree, brute_force};
+#[cfg(feature = "reference")]
+use crate::reference::ReferenceBvh;
+use glam::Vec3;
+#[cfg(feature = "reference")]
+use heliostat_geometry::triangle::{TriangleRay, intersect};
+use heliostat_geometry::{Aabb, Ray, TriMesh};
+use std::ops::Range;
+
+/// A ray on which an index does not say what brute force says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Disagreement {
+    /// Number of the ray; see [`Verifier::ray`].
+    pub number: u64,
+    /// The ray.
+    pub ray: Ray,
+    /// Name of the index.
+    pub index: String,
+    /// What brute force found.
+    pub expected: Option<MeshHit>,
+    /// What the index found.
+    pub got: Option<MeshHit>,
+}
+
+/// What came of a comparison.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Agreement {
+    /// Rays traced through every index.
+    pub rays: u64,
+    /// Rays that hit the mesh, by brute force.
+    pub hits: u64,
+    /// Every ray and index that differs: in whether there is a hit, in the triangle, in any bit of the distance, or when
+    /// its any-hit query contradicts.
+    pub disagreements: Vec<Disagreement>,
+}
+
+impl Agreement {
+    /// Adds what came of other rays.
+    pub fn merge(&mut self, other: Self) {
+        self.rays += other.rays;
+        self.hits += other.hits;
+        self.disagreements.extend(other.disagreements);
+    }
+}
+
+/// One mesh under several indices.
+#[derive(Debug)]
+pub struct Verifier<'m> {
+    mesh: &'m TriMesh,
+    bounds: Aabb,
+    trees: Vec<(String, MeshTree)>,
+    #[cfg(feature = "reference")]
+    witness: ReferenceBvh,
+}
+
+impl<'m> Verifier<'m> {
+    /// Builds a tree for each named setting, and with feature `reference` the BVH of `obvhs`, under that name.
+    ///
+    /// # Errors
+    /// Those of [`MeshTree::build`].
+    pub fn new(mesh: &'m TriMesh, settings: &[(&str, BuildParams)]) -> Result<Self, BuildError> {
+        mesh.validate().map_err(BuildError::Mesh)?;
+        let trees = settings
+            .iter()
+            .map(|(name, params)| Ok(((*name).to_owned(), MeshTree::build(mesh, params)?)))
+            .collect::<Result<_, BuildError>>()?;
+        Ok(Self {
+            mesh,
+            bounds: mesh.bounds(),
+            trees,
+            #[cfg(feature = "reference")]
+            witness: ReferenceBvh::build(mesh)?,
+        })
+    }
+
+    /// The trees, with their names.
+    pub fn trees(&self) -> &[(String, MeshTree)] {
+        &self.trees
+    }
+
+    /// Traces the rays of these numbers through all indices.
+    pub fn run(&self, numbers: Range<u64>, seed: u64) -> Agreement {
+        let mut agreement = Agreement::default();
+        for number in numbers {
+            let ray = self.ray(number, seed);
+            let expected = brute_force(self.mesh, &ray);
+            agreement.rays += 1;
+            agreement.hits += u64::from(expected.is_some());
+            let mut judge = |index: &str, got: Option<MeshHit>, occluded: bool| {
+                if got != expected || occluded != expected.is_some() {
+                    let index = index.to_owned();
+                    agreement.disagreements.push(Disagreement { number, ray, index, expected, got });
+                }
+            };
+            for (name, tree) in &self.trees {
+                judge(name, tree.closest_hit(self.mesh, &ray), tree.any_hit(self.mesh, &ray));
+            }
+            #[cfg(feature = "reference")]
+            judge("obvhs", self.closest_by_witness(&ray), self.any_by_witness(&ray));
+        }
+        agreement
+    }
+
+    #[cfg(feature = "reference")]
+    fn closest_by_witness(&self, ray: &Ray) -> Option<MeshHit> {
+        use crate::query::RayIndex;
+        let sheared = TriangleRay::new(ray);
+        let found = self.witness.closest_hit(ray, |i, ray| {
+            intersect(&sheared, ray.range, self.mesh.corners(i)).map(|hit| (hit.t, hit))
+        })?;
+        Some(MeshHit { triangle: found.primitive, hit: found.data })
+    }
+
+    #[cfg(feature = "reference")]
+    fn any_by_witness(&self, ray: &Ray) -> bool {
+        use crate::query::RayIndex;
+        let sheared = TriangleRay::new(ray);
+        self.witness.any_hit(ray, |i, ray| intersect(&sheared, ray.range, self.mesh.corners(i)).is_some())
+    }
+
+    /// The ray of that number: in turn one through the bounds from outside, one along an axis, one at a vertex, one at
+    /// a point of an edge, and one from inside the bounds.
+    pub fn ray(&self, number: u64, seed: u64) -> Ray {
+        let mut random = Random::new(number, seed);
+        if self.mesh.triangles.is_empty() {
+            return Ray::new(random.direction(), random.direction());
+        }
+        let outside = self.bounds.centre() + 2.0 * self.bounds.radius() * random.direction();
+        let inside = random.point(self.bounds);
+        let [a, b, _] = self.mesh.corners(random.below(self.mesh.triangles.len()) as u32);
+        let ray = match number % 5 {
+            0 => Ray::new(outside, inside - outside),
+            1 => self.parallel_ray(a, inside, &mut random),
+            2 => Ray::new(outside, a - outside),
+            3 => Ray::new(outside, a.lerp(b, random.unit()) - outside),
+            _ => Ray::new(inside, random.direction()),
+        };
+        // A mesh of one point may lie where the ray starts.
+        if ray.is_valid() { ray } else { Ray::new(outside, random.direction()) }
+    }
+
+    /// A ray along an axis, through the bounds; one in two runs through a vertex, where planes like to lie.
+    fn parallel_ray(&self, vertex: Vec3, inside: Vec3, random: &mut Random) -> Ray {
+        let axis = random.below(3);
+        let sign = if random.below(2) == 0 { 1.0 } else { -1.0 };
+        let mut dir = Vec3::ZERO;
+        dir[axis] = sign;
+        let mut origin = if random.below(2) == 0 { vertex } else { inside };
+        origin[axis] = self.bounds.centre()[axis] - sign * 2.0 * self.bounds.radius();
+        Ray::new(origin, dir)
+    }
+}
+
+/// Random numbers that follow from the number of a ray and a seed.
+///
+/// # Source
+/// Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014 (`SplitMix64`).
+struct Random(u64);
+
+impl Random {
+    const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
+
+    fn new(number: u64, seed: u64) -> Self {
+        let mut start = Self(seed);
+        let mixed = start.bits();
+        Self(mixed ^ number.wrapping_mul(0xD134_2543_DE82_EF95))
+    }
+
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(Self::STEP);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    /// In `[0, 1)`.
+    fn unit(&mut self) -> f32 {
+        (self.bits() >> 40) as f32 / (1_u64 << 24) as f32
+    }
+
+    /// In `0..n`; the bias for an `n` far below 2^64 is nil.
+    fn below(&mut self, n: usize) -> usize {
+        (self.bits() % n as u64) as usize
+    }
+
+    fn point(&mut self, bounds: Aabb) -> Vec3 {
+        let u = Vec3::new(self.unit(), self.unit(), self.unit());
+        bounds.min + u * bounds.size()
+    }
+
+    /// A unit vector, uniform on the sphere.
+    fn direction(&mut self) -> Vec3 {
+        let z = 1.0 - 2.0 * self.unit();
+        let (sin, cos) = (std::f32::consts::TAU * self.unit()).sin_cos();
+        let r = (1.0 - z * z).max(0.0).sqrt();
+        Vec3::new(r * cos, r * sin, z)
+    }
+}
