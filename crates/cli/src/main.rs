@@ -1,2 +1,26 @@
-//! Placeholder.
-fn main() {}
+//! `heliostat`: the command line of the ray tracer.
+//!
+//! [`args`] says what can be asked for, [`command`] does it, and whatever goes wrong becomes a [`diagnose::Failure`]
+//! with one of the [`exit`] codes and ends in one line on standard error.
+
+mod args;
+mod diagnose;
+mod exit;
+mod frame_name;
+mod memory;
+mod out;
+mod output;
+mod progress;
+mod signals;
+mod usage;
+
+use args::Cli;
+use clap::Parser;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    match Cli::try_parse() {
+        Ok(cli) => { let _ = cli; ExitCode::SUCCESS },
+        Err(error) => usage::report(&error).into(),
+    }
+}
