@@ -4,6 +4,7 @@
 //! with one of the [`exit`] codes and ends in one line on standard error.
 
 mod args;
+mod command;
 mod diagnose;
 mod exit;
 mod frame_name;
@@ -19,8 +20,9 @@ use clap::Parser;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    match Cli::try_parse() {
-        Ok(cli) => { let _ = cli; ExitCode::SUCCESS },
-        Err(error) => usage::report(&error).into(),
-    }
+    let exit = match Cli::try_parse() {
+        Ok(cli) => command::run(cli).unwrap_or_else(|failure| failure.print()),
+        Err(error) => usage::report(&error),
+    };
+    exit.into()
 }

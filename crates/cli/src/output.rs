@@ -33,10 +33,16 @@ impl Output {
             Some("exr") => Format::Exr,
             Some("png") => Format::Png,
             Some(other) => {
-                let message = format!("{shown}: images cannot be written as .{other}; write a name that ends in .exr or .png");
+                let message = format!(
+                    "{shown}: images cannot be written as .{other}; write a name that ends in .exr or .png"
+                );
                 return Err(Failure::usage(message));
             }
-            None => return Err(Failure::usage(format!("{shown}: no ending; write a name that ends in .exr or .png"))),
+            None => {
+                return Err(Failure::usage(format!(
+                    "{shown}: no ending; write a name that ends in .exr or .png"
+                )));
+            }
         };
         let Some(name) = path.file_name().and_then(|n| n.to_str()) else {
             return Err(Failure::usage(format!("{shown}: not a name in UTF-8; choose another one")));
@@ -98,7 +104,11 @@ pub(crate) fn check_writable(path: &Path) -> Result<(), Failure> {
     }
     match tempfile::Builder::new().prefix(".heliostat-").tempfile_in(folder) {
         Ok(_) => Ok(()),
-        Err(error) => fail(format!("{}: cannot be written into: {}; choose another folder", folder.display(), cause(&error))),
+        Err(error) => fail(format!(
+            "{}: cannot be written into: {}; choose another folder",
+            folder.display(),
+            cause(&error)
+        )),
     }
 }
 

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 
 /// Tell what is wrong with a scene, without rendering it
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:\n  heliostat check scene.toml\n  heliostat check --strict --json model.obj")]
+#[command(
+    after_help = "Examples:\n  heliostat check scene.toml\n  heliostat check --strict --json model.obj"
+)]
 pub(crate) struct CheckArgs {
     /// A scene (.toml) or a model (.obj)
     pub(crate) scene: PathBuf,

@@ -17,7 +17,9 @@ pub(crate) struct CompletionsArgs {
 
 /// Print the manual page, or write one page per command
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:\n  heliostat man | man -l -\n  heliostat man --dir /usr/local/share/man/man1")]
+#[command(
+    after_help = "Examples:\n  heliostat man | man -l -\n  heliostat man --dir /usr/local/share/man/man1"
+)]
 pub(crate) struct ManArgs {
     /// Write heliostat.1, heliostat-render.1 and so on into this folder
     #[arg(long, value_name = "FOLDER")]

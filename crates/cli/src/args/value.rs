@@ -27,9 +27,11 @@ pub(crate) fn region(text: &str) -> Result<PixelRect, String> {
     let numbers: Option<Vec<u32>> = text.split(',').map(|n| n.trim().parse().ok()).collect();
     match numbers.as_deref() {
         Some(&[x0, y0, x1, y1]) if x0 < x1 && y0 < y1 => Ok(PixelRect { x0, y0, x1, y1 }),
-        Some([_, _, _, _]) => Err("the region is empty; write the third number above the first and the fourth above the \
+        Some([_, _, _, _]) => {
+            Err("the region is empty; write the third number above the first and the fourth above the \
             second"
-            .into()),
+                .into())
+        }
         _ => Err("write four whole numbers LEFT,TOP,RIGHT,BOTTOM, as in 100,50,300,200".into()),
     }
 }
@@ -134,7 +136,10 @@ pub(crate) enum Tree {
 pub(crate) fn tree(text: &str) -> Result<Tree, String> {
     match text {
         "objects" => Ok(Tree::Objects),
-        _ => text.parse().map(Tree::Mesh).map_err(|_| "write `objects`, or the number of a mesh, from 0".into()),
+        _ => text
+            .parse()
+            .map(Tree::Mesh)
+            .map_err(|_| "write `objects`, or the number of a mesh, from 0".into()),
     }
 }
 
@@ -181,7 +186,20 @@ mod tests {
 
     #[test]
     fn wrong_frame_lists() {
-        for text in ["", "a", "1-", "-", "1-4x0", "1-4x", "4-1", "1,,2", "1-2-3", "0-2147483647", "1--", "99999999999"] {
+        for text in [
+            "",
+            "a",
+            "1-",
+            "-",
+            "1-4x0",
+            "1-4x",
+            "4-1",
+            "1,,2",
+            "1-2-3",
+            "0-2147483647",
+            "1--",
+            "99999999999",
+        ] {
             assert!(frames(text).is_err(), "{text}");
         }
     }

@@ -41,7 +41,9 @@ impl Lines {
         match self.style {
             Style::Plain if frames > 1 => out::note(format_args!("FRAME: {frame} ({number} of {frames})")),
             Style::Plain | Style::Alf => {}
-            Style::Json => event(&json!({ "event": "frame", "frame": frame, "number": number, "frames": frames })),
+            Style::Json => {
+                event(&json!({ "event": "frame", "frame": frame, "number": number, "frames": frames }))
+            }
         }
     }
 
