@@ -1,9 +1,15 @@
 //! Files in and out: scene files, OBJ with MTL, textures, PNG and OpenEXR.
 
+pub mod atomic;
 pub mod error;
+pub mod exr_file;
 pub mod file;
+pub mod image_file;
 pub mod nearest;
+pub mod picture;
+pub mod save_error;
 pub mod view;
 
 pub use error::{LoadError, Warning};
+pub use save_error::SaveError;
 pub use view::{View, ViewTransform};

@@ -32,8 +32,23 @@ pub enum Meta {
     Int(i32),
     /// A number.
     Float(f32),
+    /// A ratio: numerator and denominator.
+    Rational(i32, u32),
+    /// Two numbers.
+    Vec2([f32; 2]),
+    /// Three numbers.
+    Vec3([f32; 3]),
     /// A 4 by 4 matrix, row by row.
     Matrix([f32; 16]),
+    /// A list of texts.
+    Texts(Vec<String>),
+    /// A value of another type, as the file holds it.
+    Other {
+        /// Name of the type in the file format.
+        kind: String,
+        /// The value.
+        bytes: Vec<u8>,
+    },
 }
 
 /// A picture of named channels. Colour is linear Rec.709, premultiplied by alpha.
