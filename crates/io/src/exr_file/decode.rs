@@ -183,15 +183,11 @@ fn place(
         let values = &mut frame.channels[slot].values[(row * width) as usize..][..width as usize];
         // Samples left of the window are skipped, those right of it end the zip.
         let skipped = (-left).max(0) as usize;
-        let first = left.clamp(0, width) as usize;
+        let out = &mut values[left.clamp(0, width) as usize..];
         match planned.kind {
-            SampleKind::Half => {
-                copy(line.value, skipped, &mut values[first..], |b| f16::from_ne_bytes(b).to_f32())
-            }
-            SampleKind::Float => copy(line.value, skipped, &mut values[first..], f32::from_ne_bytes),
-            SampleKind::Uint => {
-                copy(line.value, skipped, &mut values[first..], |b| u32::from_ne_bytes(b) as f32)
-            }
+            SampleKind::Half => copy(line.value, skipped, out, |b| f16::from_ne_bytes(b).to_f32()),
+            SampleKind::Float => copy(line.value, skipped, out, f32::from_ne_bytes),
+            SampleKind::Uint => copy(line.value, skipped, out, |b| u32::from_ne_bytes(b) as f32),
         }
     }
 }

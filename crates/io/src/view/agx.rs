@@ -5,7 +5,7 @@
 //! Rec.709 is clipped) and the mixing of 60 % of the hue from before the curve.
 //!
 //! # Source
-//! T. Sobotka, "SB2383-Configuration-Generation" (method, curve); E. Chow, "AgX_LUT_Gen", `AgXBaseRec2020.py`
+//! T. Sobotka, "SB2383-Configuration-Generation" (method, curve); E. Chow, `AgX_LUT_Gen`, `AgXBaseRec2020.py`
 //! (matrices, slope 2.4, powers 1.5, -10 to +6.5 stops around 0.18); the matrices between the two sets of primaries are
 //! those of ITU-R BT.2087-0.
 

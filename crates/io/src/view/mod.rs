@@ -80,8 +80,8 @@ impl View {
         // The brightest half: beyond it every transform is at its end, and squares of it are finite.
         const BRIGHTEST: f32 = 65504.0;
         let exposed = light * self.exposure.exp2();
-        // `f32::max` returns the other operand for NaN.
-        let safe = Vec3::from_array(exposed.to_array().map(|v| v.max(0.0).min(BRIGHTEST)));
+        let safe = |v: f32| if v.is_nan() { 0.0 } else { v.clamp(0.0, BRIGHTEST) };
+        let safe = Vec3::from_array(exposed.to_array().map(safe));
         let display = self.transform.form(safe);
         Vec3::from_array(display.to_array().map(linear_to_srgb)).clamp(Vec3::ZERO, Vec3::ONE)
     }
