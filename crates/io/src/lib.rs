@@ -7,6 +7,7 @@ pub mod file;
 pub mod image_file;
 pub mod nearest;
 pub mod picture;
+pub mod png_file;
 pub mod save_error;
 pub mod view;
 

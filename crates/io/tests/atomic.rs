@@ -11,8 +11,9 @@ fn put(path: &Path, text: &str) -> Result<(), SaveError> {
 }
 
 fn names(folder: &Path) -> Vec<String> {
-    let mut names: Vec<_> =
-        fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    let entries = fs::read_dir(folder).expect("a folder");
+    let name = |e: io::Result<fs::DirEntry>| e.expect("an entry").file_name().to_string_lossy().into_owned();
+    let mut names: Vec<_> = entries.map(name).collect();
     names.sort();
     names
 }
@@ -77,7 +78,7 @@ mod unix {
     use std::os::unix::fs::{PermissionsExt, symlink};
 
     fn mode(path: &Path) -> u32 {
-        fs::metadata(path).unwrap().permissions().mode() & 0o7777
+        fs::metadata(path).expect("a file").permissions().mode() & 0o7777
     }
 
     #[test]
