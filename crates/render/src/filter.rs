@@ -21,7 +21,7 @@
 //! Computer Graphics", SIGGRAPH 1988; Harris, "On the Use of Windows for Harmonic Analysis", Proc. IEEE 1978 (the
 //! minimum four-term window); Duchon, "Lanczos Filtering in One and Two Dimensions", J. Appl. Meteorology 1979.
 
-use crate::sampler::Sampler;
+use crate::sampler::{Sampler, branch};
 use glam::{DVec2, Vec2};
 use heliostat_scene::settings::Filter;
 use std::f64::consts::PI;
@@ -135,8 +135,9 @@ impl PixelFilter {
         }
         // Each stratum runs through its own sequence, so that each is stratified in itself.
         let (before, is_negative) = self.negatives_before(sample);
-        let index = if is_negative { before } else { sample - before };
-        let u = Sampler::new(seed, pixel, index).fork(u32::from(is_negative)).next_2d();
+        let (index, stratum) =
+            if is_negative { (before, branch::NEGATIVE) } else { (sample - before, branch::POSITIVE) };
+        let u = Sampler::new(seed, pixel, index).fork(stratum).next_2d();
         FilmSample { offset: self.place(u, is_negative), is_negative }
     }
 

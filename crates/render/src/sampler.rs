@@ -16,6 +16,18 @@ use sobol_burley::parts::{hash, owen_scramble_rev};
 /// Odd constant of the golden ratio: spreads consecutive integers over 64 bits.
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
+/// The first branches of every sample: what the film and the camera draw never moves what the integrator draws.
+pub(crate) mod branch {
+    /// Place of a sample that adds to its pixel.
+    pub(crate) const POSITIVE: u32 = 0;
+    /// Place of a sample that subtracts.
+    pub(crate) const NEGATIVE: u32 = 1;
+    /// Lens and time.
+    pub(crate) const CAMERA: u32 = 2;
+    /// Everything that happens to the ray.
+    pub(crate) const INTEGRATOR: u32 = 3;
+}
+
 /// The random numbers of one sample of one pixel, in one branch of its recursion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sampler {
@@ -150,7 +162,7 @@ fn to_unit(bits: u32) -> f32 {
 /// A bijection of 64 bits in which every input bit flips half of the output bits.
 ///
 /// # Source
-/// Stafford's variant 13, as in SplitMix64 (Steele, Lea, Flood, OOPSLA 2014).
+/// Stafford's variant 13, as in `SplitMix64` (Steele, Lea, Flood, OOPSLA 2014).
 #[inline]
 fn mix(mut bits: u64) -> u64 {
     bits = (bits ^ bits >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -228,14 +240,14 @@ mod tests {
     fn draws_branches_and_pixels_are_uncorrelated() {
         // With n independent pairs the correlation has deviation 1 / sqrt(n); 5 deviations are asked for.
         let n = 4096;
-        let correlation = |pair: &dyn Fn(u32) -> (f32, f32)| {
-            let sum: f64 =
-                (0..n).map(|i| pair(i)).map(|(a, b)| (f64::from(a) - 0.5) * (f64::from(b) - 0.5)).sum();
+        type Pairs<'a> = &'a dyn Fn(u32) -> (f32, f32);
+        let correlation = |pair: Pairs<'_>| {
+            let sum: f64 = (0..n).map(pair).map(|(a, b)| (f64::from(a) - 0.5) * (f64::from(b) - 0.5)).sum();
             12.0 * sum / f64::from(n)
         };
         let limit = 5.0 / f64::from(n).sqrt();
         let at = |x, y| Sampler::new(0, [x, y], 0);
-        let pairs: [(&str, &dyn Fn(u32) -> (f32, f32)); 6] = [
+        let pairs: [(&str, Pairs<'_>); 6] = [
             ("neighbours in x", &|i| (at(i, 0).next_1d(), at(i + 1, 0).next_1d())),
             ("neighbours in y", &|i| (at(0, i).next_1d(), at(0, i + 1).next_1d())),
             ("x and y of a draw", &|i| at(i, 9).next_2d().into()),

@@ -1,0 +1,129 @@
+//! From the film to named channels.
+//!
+//! | channel | value | stored |
+//! |---|---|---|
+//! | `R G B A` | radiance, premultiplied, and coverage; filtered | half |
+//! | `albedo.R albedo.G albedo.B` | share of light that the first surface sends on; filtered like the beauty | half |
+//! | `Z` | depth, see `heliostat/depthType`; 1e10 on a miss | float |
+//! | `N.X N.Y N.Z` | shading normal in world space, 0 on a miss | float |
+//! | `P.X P.Y P.Z` | position in world space, 0 on a miss | float |
+//! | `UV.U UV.V` | surface parameters, 0 on a miss | float |
+//! | `object_id.Y` | index of the object + 1, 0 on a miss and on the surface of a light | float |
+//! | `material_id.Y` | index of the material + 1, 0 likewise | float |
+//!
+//! All below the line of the halves are data: one sample each, the one nearest to the centre of the pixel, never mixed
+//! and not premultiplied. (A mean of two ids, or of a depth and 1e10, is nothing.)
+
+use crate::film::{Film, Nearest, Tile};
+use heliostat_scene::frame::{Channel, Depth};
+use heliostat_scene::settings::{Layers, PixelRect};
+
+/// A film's pixels, row by row over a window.
+#[derive(Clone, Debug)]
+pub(crate) struct Raster<T> {
+    pub(crate) window: PixelRect,
+    pub(crate) pixels: Vec<T>,
+}
+
+impl<T: Copy> Raster<T> {
+    /// Reads every pixel of a film.
+    pub(crate) fn of_film(film: &Film, empty: T, pixel: impl Fn(&Tile, usize) -> T) -> Self {
+        let window = film.window();
+        let columns = window.width() as usize;
+        let mut pixels = vec![empty; columns * window.height() as usize];
+        for tile in film.tiles() {
+            let (width, rect) = (tile.rect.width() as usize, tile.rect);
+            for (row, y) in (rect.y0..rect.y1).enumerate() {
+                let start = (y - window.y0) as usize * columns + (rect.x0 - window.x0) as usize;
+                for (column, place) in pixels[start..start + width].iter_mut().enumerate() {
+                    *place = pixel(tile, row * width + column);
+                }
+            }
+        }
+        Self { window, pixels }
+    }
+
+    /// The part of it in `window`, which must lie inside.
+    pub(crate) fn crop(self, window: PixelRect) -> Self {
+        if window == self.window {
+            return self;
+        }
+        let columns = self.window.width() as usize;
+        let row = |y: u32| {
+            let start = (y - self.window.y0) as usize * columns + (window.x0 - self.window.x0) as usize;
+            &self.pixels[start..start + window.width() as usize]
+        };
+        let pixels = (window.y0..window.y1).flat_map(row).copied().collect();
+        Self { window, pixels }
+    }
+
+    fn channel(&self, name: &str, depth: Depth, value: impl Fn(&T) -> f32) -> Channel {
+        Channel { name: name.to_owned(), depth, values: self.pixels.iter().map(value).collect() }
+    }
+}
+
+/// The channels of the beauty.
+pub(crate) fn beauty(rgba: &Raster<[f32; 4]>) -> impl Iterator<Item = Channel> {
+    (0..4).map(|c| rgba.channel(["R", "G", "B", "A"][c], Depth::Half, |pixel| pixel[c]))
+}
+
+/// The channels of the extra layers, over `window`.
+pub(crate) fn extra(film: &Film, window: PixelRect, layers: &Layers) -> Vec<Channel> {
+    let mut channels = Vec::new();
+    if layers.albedo {
+        let albedo = Raster::of_film(film, [0.0; 3], |tile, i| tile.albedo(i, film.masses())).crop(window);
+        let names = ["albedo.R", "albedo.G", "albedo.B"];
+        channels.extend((0..3).map(|c| albedo.channel(names[c], Depth::Half, |pixel| pixel[c])));
+    }
+    if keeps_nearest(layers) {
+        let nearest = Raster::of_film(film, Nearest::NONE, |tile, i| tile.nearest(i)).crop(window);
+        let wanted = data_channels().into_iter().filter(|channel| (channel.wanted)(layers));
+        channels.extend(wanted.map(|channel| nearest.channel(channel.name, Depth::Float, channel.value)));
+    }
+    channels
+}
+
+/// Whether any layer needs the nearest sample.
+pub(crate) fn keeps_nearest(layers: &Layers) -> bool {
+    data_channels().iter().any(|channel| (channel.wanted)(layers))
+}
+
+/// How many channels a frame with these layers has.
+pub(crate) fn channel_count(layers: &Layers) -> usize {
+    let data = data_channels().iter().filter(|channel| (channel.wanted)(layers)).count();
+    4 + data + if layers.albedo { 3 } else { 0 }
+}
+
+/// A channel of data: when it is wanted and what it says.
+struct DataChannel {
+    name: &'static str,
+    wanted: fn(&Layers) -> bool,
+    value: fn(&Nearest) -> f32,
+}
+
+/// Every channel of data, in the order of the table above.
+fn data_channels() -> [DataChannel; 11] {
+    let channel = |name, wanted, value| DataChannel { name, wanted, value };
+    [
+        channel("Z", |l| l.depth, |n| n.depth),
+        channel("N.X", |l| l.normal, |n| n.hit.map_or(0.0, |h| h.normal.x)),
+        channel("N.Y", |l| l.normal, |n| n.hit.map_or(0.0, |h| h.normal.y)),
+        channel("N.Z", |l| l.normal, |n| n.hit.map_or(0.0, |h| h.normal.z)),
+        channel("P.X", |l| l.position, |n| n.hit.map_or(0.0, |h| h.p.x)),
+        channel("P.Y", |l| l.position, |n| n.hit.map_or(0.0, |h| h.p.y)),
+        channel("P.Z", |l| l.position, |n| n.hit.map_or(0.0, |h| h.p.z)),
+        channel("UV.U", |l| l.uv, |n| n.hit.map_or(0.0, |h| h.uv.x)),
+        channel("UV.V", |l| l.uv, |n| n.hit.map_or(0.0, |h| h.uv.y)),
+        channel("object_id.Y", |l| l.object_id, |n| id_value(n.hit.and_then(|h| h.object))),
+        channel(
+            "material_id.Y",
+            |l| l.material_id,
+            |n| id_value(n.hit.and_then(|h| h.material).map(|m| m.0)),
+        ),
+    ]
+}
+
+/// Index + 1, 0 for none; exact up to 2^24.
+fn id_value(index: Option<u32>) -> f32 {
+    index.map_or(0.0, |index| index as f32 + 1.0)
+}

@@ -1,0 +1,90 @@
+//! What a render took: rays, samples, seconds, indices. The only place of the crate that reads the clock.
+
+use crate::counters::RayCounters;
+use heliostat_index::TreeStats;
+use std::time::Instant;
+
+/// What a render took so far.
+#[derive(Clone, Debug, Default)]
+pub struct RenderStats {
+    /// Rays by what they were for.
+    pub rays: RayCounters,
+    /// Camera samples, those through an empty part of the projection included.
+    pub samples: u64,
+    /// Samples that were left out because a number in them was infinite or not a number.
+    pub non_finite_samples: u64,
+    /// Wall clock of the phases.
+    pub seconds: PhaseSeconds,
+    /// The indices that rays went through.
+    pub indices: Vec<IndexStats>,
+}
+
+/// Seconds of wall clock by phase, each summed over its calls.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PhaseSeconds {
+    /// Building indices and light tables.
+    pub prepare: f64,
+    /// Passes.
+    pub trace: f64,
+    /// From the film to the frame.
+    pub resolve: f64,
+}
+
+/// An index and what it is over.
+#[derive(Clone, Debug)]
+pub struct IndexStats {
+    /// `scene` for the index over the objects, else which mesh.
+    pub name: String,
+    /// Its numbers.
+    pub tree: TreeStats,
+}
+
+/// Sums over several indices.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct IndexTotals {
+    /// Indices.
+    pub trees: usize,
+    /// Primitives, a shared mesh counted once.
+    pub primitives: usize,
+    /// Nodes, leaves included.
+    pub nodes: usize,
+    /// Leaves.
+    pub leaves: usize,
+    /// References of all leaves.
+    pub references: usize,
+    /// Levels of the deepest.
+    pub depth: u32,
+    /// Bytes, primitives not counted.
+    pub bytes: usize,
+    /// Seconds that the builds took, one after the other.
+    pub build_seconds: f64,
+}
+
+impl RenderStats {
+    /// Sums over all indices.
+    pub fn index_totals(&self) -> IndexTotals {
+        let start = IndexTotals { trees: self.indices.len(), ..IndexTotals::default() };
+        self.indices.iter().map(|index| &index.tree).fold(start, |sum, tree| IndexTotals {
+            trees: sum.trees,
+            primitives: sum.primitives + tree.primitives,
+            nodes: sum.nodes + tree.nodes,
+            leaves: sum.leaves + tree.leaves,
+            references: sum.references + tree.references,
+            depth: sum.depth.max(tree.depth),
+            bytes: sum.bytes + tree.bytes,
+            build_seconds: sum.build_seconds + tree.build_seconds,
+        })
+    }
+
+    /// Rays of all kinds per second of tracing; 0 before the first pass.
+    pub fn rays_per_second(&self) -> f64 {
+        if self.seconds.trace > 0.0 { self.rays.total() as f64 / self.seconds.trace } else { 0.0 }
+    }
+}
+
+/// The result of `work` and the seconds it took.
+pub(crate) fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    let start = Instant::now();
+    let result = work();
+    (result, start.elapsed().as_secs_f64())
+}
