@@ -1,0 +1,76 @@
+//! Phong's local light and the directions of mirror and glass.
+//!
+//! # Source
+//! Phong, "Illumination for Computer Generated Pictures", CACM 1975; Whitted, "An Improved Illumination Model for Shaded
+//! Display", CACM 1980.
+
+use crate::material_eval::PhongPoint;
+use glam::Vec3;
+use heliostat_scene::Rgb;
+
+/// `-ln` of the smallest positive `f32`, rounded up: `exp` of anything below its negative is 0.
+const UNDERFLOW: f32 = 104.0;
+
+impl PhongPoint {
+    /// The radiance towards `view` for one unit of light from `to_light`; all unit vectors, `n` on the side of `view`.
+    ///
+    /// Zero for light from behind.
+    #[inline]
+    pub(crate) fn answer(&self, n: Vec3, to_light: Vec3, view: Vec3) -> Rgb {
+        let cos = n.dot(to_light);
+        if cos <= 0.0 {
+            return Rgb::ZERO;
+        }
+        let diffuse = cos * self.diffuse;
+        if self.specular == Rgb::ZERO {
+            return diffuse;
+        }
+        let r_dot_v = 2.0 * cos * n.dot(view) - to_light.dot(view);
+        diffuse + power(r_dot_v, self.shininess) * self.specular
+    }
+}
+
+/// `max(x, 0)^n` for `x` up to 1, without the work where the result is too small for an `f32`.
+#[inline]
+fn power(x: f32, n: f32) -> f32 {
+    // ln x <= x - 1, so x^n <= exp(-n (1 - x)).
+    if x <= 0.0 || n * (1.0 - x) > UNDERFLOW { 0.0 } else { x.min(1.0).powf(n) }
+}
+
+/// The mirror direction of the unit direction `dir` at a surface with unit normal `n`.
+pub(crate) fn reflect(dir: Vec3, n: Vec3) -> Vec3 {
+    dir - 2.0 * dir.dot(n) * n
+}
+
+/// A refracted direction with what the Fresnel equations need.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Refraction {
+    /// Unit direction behind the surface.
+    pub(crate) dir: Vec3,
+    /// Cosine of the angle of refraction.
+    pub(crate) cos: f32,
+}
+
+/// Snell's law as vectors: `dir` unit, `n` unit and against `dir`, `eta` the index before over the index behind.
+///
+/// `None` is total internal reflection. No angle is ever worked out, so nothing can leave the domain of an inverse sine.
+pub(crate) fn refract(dir: Vec3, n: Vec3, eta: f32) -> Option<Refraction> {
+    let cos_in = -dir.dot(n);
+    let sin2_out = eta * eta * (1.0 - cos_in * cos_in).max(0.0);
+    if sin2_out >= 1.0 {
+        return None;
+    }
+    let cos = (1.0 - sin2_out).sqrt();
+    Some(Refraction { dir: (eta * dir + (eta * cos_in - cos) * n).normalize(), cos })
+}
+
+/// The share of unpolarised light that a dielectric surface reflects.
+///
+/// # Source
+/// Fresnel's equations, as in Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th edition, section 9.3.5; `eta` is the
+/// index before over the index behind.
+pub(crate) fn fresnel(cos_in: f32, cos_out: f32, eta: f32) -> f32 {
+    let parallel = (cos_in - eta * cos_out) / (cos_in + eta * cos_out);
+    let perpendicular = (eta * cos_in - cos_out) / (eta * cos_in + cos_out);
+    0.5 * (parallel * parallel + perpendicular * perpendicular)
+}
