@@ -1,0 +1,99 @@
+//! Lights from one point or one direction: point, spot and directional light.
+
+use super::{LightSample, Target};
+use glam::{Vec2, Vec3};
+use heliostat_geometry::OrthonormalFrame;
+use heliostat_geometry::warp::square_to_cone;
+use heliostat_scene::Rgb;
+use heliostat_scene::light::Falloff;
+use std::f32::consts::PI;
+
+/// A point light, with a cone if it is a spot.
+#[derive(Debug)]
+pub(super) struct PointLight {
+    intensity: Rgb,
+    position: Vec3,
+    falloff: Falloff,
+    cone: Option<Cone>,
+}
+
+/// Where a spot shines.
+#[derive(Debug)]
+struct Cone {
+    axis: Vec3,
+    cos_inner: f32,
+    cos_outer: f32,
+}
+
+impl PointLight {
+    pub(super) fn new(intensity: Rgb, position: Vec3, falloff: Falloff) -> Self {
+        Self { intensity, position, falloff, cone: None }
+    }
+
+    /// The same light, full within `inner` radians of `axis` and gone at `outer`.
+    pub(super) fn into_cone(self, axis: Vec3, inner: f32, outer: f32) -> Self {
+        let (cos_inner, cos_outer) = (inner.clamp(0.0, PI).cos(), outer.clamp(0.0, PI).cos());
+        Self { cone: Some(Cone { axis, cos_inner, cos_outer }), ..self }
+    }
+
+    #[inline]
+    pub(super) fn sample(&self, p: Vec3) -> Option<LightSample> {
+        let to_light = self.position - p;
+        let distance_squared = to_light.length_squared();
+        if distance_squared == 0.0 {
+            return None;
+        }
+        let to_light = to_light / distance_squared.sqrt();
+        let share = self.cone.as_ref().map_or(1.0, |cone| cone.share(-to_light));
+        if share == 0.0 {
+            return None;
+        }
+        let weakened = match self.falloff {
+            Falloff::InverseSquare => share / distance_squared,
+            Falloff::None => share,
+        };
+        Some(LightSample { to_light, arriving: weakened * self.intensity, target: Target::Point(self.position) })
+    }
+}
+
+impl Cone {
+    /// The share of the light that leaves in the unit direction `dir`: a smooth step over the cosine.
+    fn share(&self, dir: Vec3) -> f32 {
+        let cos = self.axis.dot(dir);
+        if cos <= self.cos_outer {
+            return 0.0;
+        }
+        if cos >= self.cos_inner {
+            return 1.0;
+        }
+        let x = (cos - self.cos_outer) / (self.cos_inner - self.cos_outer);
+        x * x * (3.0 - 2.0 * x)
+    }
+}
+
+/// A light from infinitely far away, from one direction or from a disk in the sky.
+#[derive(Debug)]
+pub(super) struct DirectionalLight {
+    intensity: Rgb,
+    /// Around the direction to the light.
+    frame: OrthonormalFrame,
+    /// Half of the angle that the source covers.
+    half_angle: f32,
+}
+
+impl DirectionalLight {
+    /// `direction` is the way of the light; `angle` what the source covers from edge to edge.
+    pub(super) fn new(intensity: Rgb, direction: Vec3, angle: f32) -> Self {
+        Self { intensity, frame: OrthonormalFrame::around(-direction), half_angle: (0.5 * angle).min(PI) }
+    }
+
+    #[inline]
+    pub(super) fn sample(&self, u: Vec2) -> LightSample {
+        let to_light = if self.half_angle > 0.0 {
+            self.frame.to_world(square_to_cone(u, self.half_angle))
+        } else {
+            self.frame.z
+        };
+        LightSample { to_light, arriving: self.intensity, target: Target::Sky }
+    }
+}

@@ -1,0 +1,126 @@
+//! Light sources made ready: each gives samples of the light that arrives at a point.
+//!
+//! A [`LightSample`] knows the direction, what arrives from there, and where the shadow ray ends. Whether anything
+//! stands in between is asked by [`direct`].
+
+mod area;
+mod delta;
+pub(crate) mod direct;
+mod emitter;
+mod sphere;
+
+use area::AreaLight;
+use delta::{DirectionalLight, PointLight};
+use glam::{Vec2, Vec3};
+use heliostat_geometry::SurfacePoint;
+use heliostat_scene::light::LightKind;
+use heliostat_scene::{Light, Rgb, Scene};
+
+/// Shadow rays per point towards an object whose material shines.
+const SHINING_OBJECT_SAMPLES: u32 = 16;
+
+/// Where the way of the light begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Target {
+    /// Infinitely far away.
+    Sky,
+    /// A point in free space.
+    Point(Vec3),
+    /// A point on the surface of an object, which must not shade itself.
+    Surface(SurfacePoint),
+}
+
+/// Light that arrives at a point from one direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct LightSample {
+    /// Unit direction to the light.
+    pub(crate) to_light: Vec3,
+    /// Irradiance on a surface that faces the light, as if all of the light came through this sample.
+    pub(crate) arriving: Rgb,
+    /// Where the shadow ray ends.
+    pub(crate) target: Target,
+}
+
+/// One light source made ready.
+#[derive(Debug)]
+pub(crate) struct PreparedLight<'s> {
+    /// Samples per shading point, at least 1; 1 where all samples are the same.
+    pub(crate) samples: u32,
+    source: Source<'s>,
+}
+
+/// The kinds that shine from somewhere.
+#[derive(Debug)]
+enum Source<'s> {
+    Point(PointLight),
+    Directional(DirectionalLight),
+    Area(AreaLight<'s>),
+}
+
+impl PreparedLight<'_> {
+    /// The light that arrives at `p` by the random numbers `u`; `None` where nothing comes this way.
+    #[inline]
+    pub(crate) fn sample(&self, p: Vec3, u: Vec2, time: f32) -> Option<LightSample> {
+        match &self.source {
+            Source::Point(light) => light.sample(p),
+            Source::Directional(light) => Some(light.sample(u)),
+            Source::Area(light) => light.sample(p, u, time),
+        }
+    }
+}
+
+/// All light sources of a scene.
+#[derive(Debug)]
+pub(crate) struct LightTable<'s> {
+    /// Ia: the sum of the ambient lights.
+    pub(crate) ambient: Rgb,
+    /// The others, objects that shine included.
+    pub(crate) lights: Vec<PreparedLight<'s>>,
+}
+
+impl<'s> LightTable<'s> {
+    /// The lights of a scene whose ids are valid.
+    pub(crate) fn new(scene: &'s Scene) -> Self {
+        let ambient = |light: &&Light| matches!(light.kind, LightKind::Ambient);
+        let declared = scene.lights.iter().filter_map(|light| prepare(scene, light));
+        let shining = scene.objects.iter().filter_map(|object| {
+            let light = AreaLight::of_object(scene, object)?;
+            Some(PreparedLight { samples: SHINING_OBJECT_SAMPLES, source: Source::Area(light) })
+        });
+        Self {
+            ambient: scene.lights.iter().filter(ambient).map(|light| light.intensity).sum(),
+            lights: declared.chain(shining).collect(),
+        }
+    }
+}
+
+/// A light that shines from somewhere, made ready; `None` for an ambient or a dark one.
+fn prepare<'s>(scene: &'s Scene, light: &'s Light) -> Option<PreparedLight<'s>> {
+    if light.intensity == Rgb::ZERO {
+        return None;
+    }
+    let (samples, source) = match &light.kind {
+        LightKind::Ambient => return None,
+        LightKind::Point { position, falloff } => {
+            (1, Source::Point(PointLight::new(light.intensity, *position, *falloff)))
+        }
+        LightKind::Spot { position, direction, inner, outer, falloff } => {
+            let point = PointLight::new(light.intensity, *position, *falloff);
+            (1, Source::Point(point.into_cone(*direction, *inner, *outer)))
+        }
+        LightKind::Directional { direction, angle } => {
+            let samples = if *angle > 0.0 { light.samples } else { 1 };
+            (samples, Source::Directional(DirectionalLight::new(light.intensity, *direction, *angle)))
+        }
+        LightKind::Area { .. } => (light.samples, Source::Area(AreaLight::of_light(scene, light)?)),
+    };
+    Some(PreparedLight { samples: samples.max(1), source })
+}
+
+/// The radiance that the visible surface of area light `light` sends along `dir` from where its normal is `ng`.
+pub(crate) fn seen(light: &Light, ng: Vec3, dir: Vec3) -> Rgb {
+    match &light.kind {
+        LightKind::Area { two_sided, .. } if *two_sided || ng.dot(dir) < 0.0 => light.intensity,
+        _ => Rgb::ZERO,
+    }
+}

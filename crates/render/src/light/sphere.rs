@@ -1,0 +1,73 @@
+//! Points on a sphere, uniform by the solid angle under which it is seen.
+//!
+//! # Source
+//! Shirley, Wang, Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", TOG 1996; the point on the sphere
+//! as in Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th edition, section 6.2.4.
+
+use glam::{DVec3, Vec2, Vec3};
+use heliostat_geometry::warp::square_to_disk;
+use heliostat_geometry::{OrthonormalFrame, Transform};
+use std::f64::consts::TAU;
+
+/// A sphere in world space.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WorldSphere {
+    pub(super) centre: DVec3,
+    pub(super) radius: f64,
+}
+
+/// A direction to a sphere.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SphereSample {
+    /// Unit direction to the point.
+    pub(super) dir: Vec3,
+    /// Outward unit normal at the nearer of the two points of the sphere in that direction.
+    pub(super) normal: DVec3,
+    /// The solid angle of the sphere: one over the density of directions.
+    pub(super) solid_angle: f32,
+}
+
+impl WorldSphere {
+    /// The image of a sphere of radius `radius` around the origin; `None` unless the map keeps it round.
+    pub(super) fn new(radius: f32, transform: &Transform) -> Option<Self> {
+        let m = transform.matrix();
+        let (x, y, z) = (m.matrix3.x_axis, m.matrix3.y_axis, m.matrix3.z_axis);
+        let scale = x.length();
+        let round = heliostat_geometry::error_bound::gamma_f64(64) * scale * scale;
+        let same = |v: DVec3| (v.length() - scale).abs() * scale <= round;
+        let right_angles = [x.dot(y), y.dot(z), z.dot(x)].iter().all(|dot| dot.abs() <= round);
+        (same(y) && same(z) && right_angles)
+            .then(|| Self { centre: m.translation, radius: scale * f64::from(radius) })
+    }
+
+    /// A direction from `p` uniform over the sphere as seen from there; `None` from inside.
+    pub(super) fn sample(&self, p: Vec3, u: Vec2) -> Option<SphereSample> {
+        let to_centre = self.centre - p.as_dvec3();
+        let distance_squared = to_centre.length_squared();
+        let sin2_max = self.radius * self.radius / distance_squared;
+        if sin2_max >= 1.0 {
+            return None;
+        }
+        let distance = distance_squared.sqrt();
+        // Height of the cap of directions, 1 - cos, without cancellation.
+        let cap = sin2_max / (1.0 + (1.0 - sin2_max).sqrt());
+        let on_disk = square_to_disk(u);
+        let height = f64::from(on_disk.length_squared().min(1.0)) * cap;
+        let ring = (cap * (2.0 - height)).sqrt();
+        let cos = 1.0 - height;
+
+        // The nearer point in that direction, from the triangle of p, the centre and the point.
+        let sin2 = height * (2.0 - height);
+        let along = distance * cos - (self.radius * self.radius - distance_squared * sin2).max(0.0).sqrt();
+        let frame = OrthonormalFrame::around((to_centre / distance).as_vec3());
+        let dir = (ring * f64::from(on_disk.x) * frame.x.as_dvec3()
+            + ring * f64::from(on_disk.y) * frame.y.as_dvec3()
+            + cos * (to_centre / distance))
+            .normalize();
+        Some(SphereSample {
+            dir: dir.as_vec3(),
+            normal: (along * dir - to_centre).normalize_or(-to_centre / distance),
+            solid_angle: (TAU * cap) as f32,
+        })
+    }
+}
