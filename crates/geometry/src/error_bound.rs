@@ -67,6 +67,12 @@ pub fn abs(m: DMat3) -> DMat3 {
     DMat3::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs())
 }
 
+/// Bound of the error of a coordinate near `v` on a flat face, as interpolated in `f32` from corners of that size or
+/// brought there by a transform and rounded: how far a point of the face `x = v` may seem to lie from it.
+pub fn on_face(v: f32) -> f32 {
+    gamma(16) * v.abs().max(1.0)
+}
+
 /// Moves `p` along the unit normal `n`, to the side that `dir` points to, out of the box of error `p_err`.
 ///
 /// The result is rounded away from `p`, so that even a bound below one ulp moves the point.

@@ -65,7 +65,7 @@ fn is_even(space: CheckerSpace, transform: &UvTransform, at: &TexturePoint) -> b
 /// upper one as a whole.
 fn snapped_floor(v: f32) -> f32 {
     let nearest = v.round();
-    if (v - nearest).abs() <= heliostat_geometry::error_bound::on_lattice(nearest) { nearest } else { v.floor() }
+    if (v - nearest).abs() <= heliostat_geometry::error_bound::on_face(nearest) { nearest } else { v.floor() }
 }
 
 /// The value of an image at transformed surface parameters; `v = 0` is its lower edge.

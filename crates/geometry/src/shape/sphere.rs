@@ -14,6 +14,21 @@ pub struct Sphere {
     pub radius: f32,
 }
 
+impl Sphere {
+    /// The point with the outward unit normal `ng`, as [`Geometry::sample`] gives it.
+    pub fn point(&self, ng: DVec3) -> AreaSample {
+        let u = ng.x.atan2(ng.z).rem_euclid(TAU) / TAU;
+        let v = ng.y.clamp(-1.0, 1.0).asin() / PI + 0.5;
+        AreaSample {
+            p: f64::from(self.radius) * ng,
+            p_err: gamma_f64(16) * f64::from(self.radius),
+            ng,
+            uv: Vec2::new(u as f32, v as f32),
+            pdf: 1.0 / self.area(),
+        }
+    }
+}
+
 impl Geometry for Sphere {
     fn hit(&self, ray: &LocalRay) -> Option<Root> {
         let r = f64::from(self.radius);

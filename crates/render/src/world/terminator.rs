@@ -1,0 +1,39 @@
+//! Shadows on smooth meshes without the corners of their triangles.
+//!
+//! A facet lies below the smooth surface that its vertex normals describe. Near the border between light and
+//! shadow its neighbours shade it, and the border shows the triangles. Shadow rays that start on the smooth surface do not
+//! have that problem.
+//!
+//! # Source
+//! Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021.
+
+use super::World;
+use super::hit::SurfaceHit;
+use super::solid::Body;
+use glam::{DVec3, Vec3};
+
+impl World<'_> {
+    /// How far the smooth surface lies above a hit on the side of its normal; against it with `turned`.
+    ///
+    /// Zero on shapes, on faceted meshes, and where the smooth surface lies below the facet.
+    pub(crate) fn lift(&self, hit: &SurfaceHit, turned: bool, time: f32) -> Vec3 {
+        let Some((triangle, weights)) = hit.triangle else { return Vec3::ZERO };
+        let Some(Body::Mesh { mesh, .. }) = self.solid_of(hit).map(|solid| &solid.body) else { return Vec3::ZERO };
+        if mesh.normals.is_empty() {
+            return Vec3::ZERO;
+        }
+        let p = hit.hit.at.p.as_dvec3();
+        let side = if turned { -1.0 } else { 1.0 };
+        let Some(solid) = self.solid_of(hit) else { return Vec3::ZERO };
+        let lift = solid.place.at(time, |transform| {
+            let corners = mesh.triangles[triangle as usize].map(|v| v as usize);
+            corners.into_iter().zip(weights).fold(DVec3::ZERO, |lift, (corner, weight)| {
+                // Onto the plane through the corner at right angles to its normal, if that lies above.
+                let vertex = transform.matrix().transform_point3(mesh.positions[corner].as_dvec3());
+                let normal = side * transform.normal(mesh.normals[corner]).as_dvec3();
+                lift - f64::from(weight) * (p - vertex).dot(normal).min(0.0) * normal
+            })
+        });
+        lift.map_or(Vec3::ZERO, DVec3::as_vec3)
+    }
+}
