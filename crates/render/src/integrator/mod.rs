@@ -3,12 +3,28 @@
 //! The film side makes a [`CameraRay`] and a [`Sampler`], an [`Integrator`] answers with a [`Sample`]. Integrators hold
 //! no state that changes: every random number comes from the sampler, every count goes to the counters.
 
+mod ambient_occlusion;
+mod cost;
+mod depth;
+mod first;
+mod normals;
+mod uv;
+mod whitted;
+
+pub use ambient_occlusion::AmbientOcclusion;
+pub use cost::Cost;
+pub use depth::Depth;
+pub use normals::Normals;
+pub use uv::Uv;
+pub use whitted::Whitted;
+
 use crate::counters::RayCounters;
 use crate::sampler::Sampler;
 use crate::world::World;
 use glam::{Vec2, Vec3};
 use heliostat_geometry::Ray;
-use heliostat_scene::{MaterialId, Rgb};
+use heliostat_scene::settings::IntegratorKind;
+use heliostat_scene::{MaterialId, RenderSettings, Rgb};
 
 /// A ray of the camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,4 +86,16 @@ pub trait Integrator: Sync {
         sampler: &mut Sampler,
         counters: &mut RayCounters,
     ) -> Sample;
+}
+
+/// The integrator that the settings name.
+pub fn create(settings: &RenderSettings) -> Box<dyn Integrator> {
+    match settings.integrator {
+        IntegratorKind::Whitted => Box::new(Whitted::new(settings)),
+        IntegratorKind::Normals => Box::new(Normals),
+        IntegratorKind::Depth => Box::new(Depth),
+        IntegratorKind::Uv => Box::new(Uv),
+        IntegratorKind::AmbientOcclusion => Box::new(AmbientOcclusion::new(settings)),
+        IntegratorKind::Cost => Box::new(Cost),
+    }
 }

@@ -87,9 +87,14 @@ impl DirectionalLight {
         Self { intensity, frame: OrthonormalFrame::around(-direction), half_angle: (0.5 * angle).min(PI) }
     }
 
+    /// Whether it covers more than a point of the sky.
+    pub(super) fn is_wide(&self) -> bool {
+        self.half_angle > 0.0
+    }
+
     #[inline]
     pub(super) fn sample(&self, u: Vec2) -> LightSample {
-        let to_light = if self.half_angle > 0.0 {
+        let to_light = if self.is_wide() {
             self.frame.to_world(square_to_cone(u, self.half_angle))
         } else {
             self.frame.z

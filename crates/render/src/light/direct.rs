@@ -41,7 +41,7 @@ pub(crate) fn lighting(
     let mut sum = Rgb::ZERO;
     for light in world.lights() {
         if light.samples == 1 {
-            let u = if light.is_extended() { sampler.next_2d() } else { Vec2::ZERO };
+            let u = if light.is_extended { sampler.next_2d() } else { Vec2::ZERO };
             sum += from_sample(world, light, point, u, counters);
         } else {
             // Every point takes all samples: none decides by itself whether it lies in the penumbra.

@@ -46,6 +46,8 @@ pub(crate) struct LightSample {
 pub(crate) struct PreparedLight<'s> {
     /// Samples per shading point, at least 1; 1 where all samples are the same.
     pub(crate) samples: u32,
+    /// Whether samples differ: the light covers more than a point or a direction.
+    pub(crate) is_extended: bool,
     source: Source<'s>,
 }
 
@@ -85,7 +87,11 @@ impl<'s> LightTable<'s> {
         let declared = scene.lights.iter().filter_map(|light| prepare(scene, light));
         let shining = scene.objects.iter().filter_map(|object| {
             let light = AreaLight::of_object(scene, object)?;
-            Some(PreparedLight { samples: SHINING_OBJECT_SAMPLES, source: Source::Area(light) })
+            Some(PreparedLight {
+                samples: SHINING_OBJECT_SAMPLES,
+                is_extended: true,
+                source: Source::Area(light),
+            })
         });
         Self {
             ambient: scene.lights.iter().filter(ambient).map(|light| light.intensity).sum(),
@@ -99,22 +105,27 @@ fn prepare<'s>(scene: &'s Scene, light: &'s Light) -> Option<PreparedLight<'s>> 
     if light.intensity == Rgb::ZERO {
         return None;
     }
-    let (samples, source) = match &light.kind {
+    let source = match &light.kind {
         LightKind::Ambient => return None,
         LightKind::Point { position, falloff } => {
-            (1, Source::Point(PointLight::new(light.intensity, *position, *falloff)))
+            Source::Point(PointLight::new(light.intensity, *position, *falloff))
         }
         LightKind::Spot { position, direction, inner, outer, falloff } => {
             let point = PointLight::new(light.intensity, *position, *falloff);
-            (1, Source::Point(point.into_cone(*direction, *inner, *outer)))
+            Source::Point(point.into_cone(*direction, *inner, *outer))
         }
         LightKind::Directional { direction, angle } => {
-            let samples = if *angle > 0.0 { light.samples } else { 1 };
-            (samples, Source::Directional(DirectionalLight::new(light.intensity, *direction, *angle)))
+            Source::Directional(DirectionalLight::new(light.intensity, *direction, *angle))
         }
-        LightKind::Area { .. } => (light.samples, Source::Area(AreaLight::of_light(scene, light)?)),
+        LightKind::Area { .. } => Source::Area(AreaLight::of_light(scene, light)?),
     };
-    Some(PreparedLight { samples: samples.max(1), source })
+    let is_extended = match &source {
+        Source::Point(_) => false,
+        Source::Directional(light) => light.is_wide(),
+        Source::Area(_) => true,
+    };
+    let samples = if is_extended { light.samples.max(1) } else { 1 };
+    Some(PreparedLight { samples, is_extended, source })
 }
 
 /// The radiance that the visible surface of area light `light` sends along `dir` from where its normal is `ng`.

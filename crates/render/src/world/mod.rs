@@ -1,60 +1,120 @@
 //! A scene made ready for rays: indices over objects and meshes, and the table of its lights.
 //!
-//! Two levels: each mesh has one tree in its local space, however many objects show it; the world has one tree over the
-//! boxes of its objects. Infinite things stay outside the tree and are asked by every ray.
+//! Two levels: each mesh has one tree in its local space, however many objects show it; the world has one index over the
+//! boxes of its objects. The visible surfaces of area lights stand beside the objects: rays see them, but they throw
+//! no shadow, so that a bulb does not hide the light inside it.
 
+mod check;
+mod crossing;
+mod error;
 mod hit;
+mod level;
 mod place;
+mod shadow;
 mod solid;
+mod terminator;
+mod trees;
 
+pub(crate) use crossing::{Inside, PassingRay};
+use crossing::coincide;
+pub use error::WorldError;
 pub use hit::{Owner, SurfaceHit};
+pub(crate) use place::Place;
+pub use trees::TreeCache;
 
-use heliostat_geometry::Ray;
-use heliostat_scene::object::Geometry;
-use heliostat_scene::{Rgb, Scene};
-use place::Place;
-use solid::{Body, Solid};
-
-/// Why a scene could not be made ready.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum WorldError {
-    /// An object refers to something that the scene does not have.
-    #[error("object `{object}` refers to {what}, which the scene does not have")]
-    Dangling {
-        /// Name of the object.
-        object: String,
-        /// What is missing.
-        what: String,
-    },
-}
+use crate::light::{LightTable, PreparedLight};
+use glam::Vec3;
+use heliostat_geometry::{Aabb, Ray};
+use heliostat_index::{BspTree, MeshTree, TraversalCost};
+use heliostat_scene::light::LightKind;
+use heliostat_scene::material::{Material, Surface};
+use heliostat_scene::{Object, RenderSettings, Rgb, Scene};
+use level::Level;
+use solid::{Meeting, Solid, SurfaceAt};
+use std::sync::Arc;
 
 /// A scene made ready for rays.
 #[derive(Debug)]
 pub struct World<'s> {
     scene: &'s Scene,
+    /// The objects in their order, then the visible surfaces of area lights.
     solids: Vec<Solid<'s>>,
+    /// How each solid stops light.
+    shadows: Vec<Shadow>,
+    /// Index of the light behind each solid that is not an object.
+    shining: Vec<u32>,
+    level: Level,
+    trees: Vec<Arc<MeshTree>>,
+    lights: LightTable<'s>,
+    /// Whether any solid lets light through.
+    has_filters: bool,
+    /// Whether glass lets light through.
+    glass: bool,
+    /// Whether all objects are seen by camera rays.
+    all_visible: bool,
+}
+
+/// How a thing stops light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Shadow {
+    /// Not at all.
+    None,
+    /// A part of it passes.
+    Filter,
+    /// Nothing passes.
+    Solid,
+}
+
+/// The nearest thing on the way of a ray.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Seen {
+    /// Index into the solids, for [`PassingRay::behind`].
+    pub(crate) solid: u32,
+    /// The surface.
+    pub(crate) surface: SurfaceHit,
 }
 
 impl<'s> World<'s> {
     /// Makes `scene` ready.
     ///
     /// # Errors
-    /// When an object refers to something that is not there.
-    pub fn new(scene: &'s Scene) -> Result<Self, WorldError> {
-        let mut solids = Vec::with_capacity(scene.objects.len());
-        for object in &scene.objects {
-            let place = Place::of(&object.motion);
-            let (geometry, local) = match &object.geometry {
-                Geometry::Shape(shape) => (Body::Shape(shape), shape.geometry().bounds()),
-                Geometry::Mesh(id) => {
-                    let what = format!("mesh {}", id.0);
-                    return Err(WorldError::Dangling { object: object.name.clone(), what });
-                }
-            };
-            solids.push(Solid { geometry, bounds: place.bounds(local), place });
-        }
-        Ok(Self { scene, solids })
+    /// When the scene refers to parts it does not have, or a mesh is damaged.
+    pub fn new(scene: &'s Scene, settings: &RenderSettings) -> Result<Self, WorldError> {
+        Self::with_cache(scene, settings, &mut TreeCache::default())
+    }
+
+    /// Makes `scene` ready with the trees of meshes that `cache` knows, and leaves those of its own there.
+    ///
+    /// # Errors
+    /// As [`World::new`].
+    pub fn with_cache(
+        scene: &'s Scene,
+        settings: &RenderSettings,
+        cache: &mut TreeCache,
+    ) -> Result<Self, WorldError> {
+        check::check(scene)?;
+        let trees = cache.trees(scene)?;
+        let objects = scene.objects.iter().map(|object| (&object.geometry, Place::of(&object.motion)));
+        let (shining, surfaces): (Vec<_>, Vec<_>) = visible_lights(scene).unzip();
+        let solids: Vec<_> = objects
+            .chain(surfaces)
+            .map(|(geometry, place)| Solid::new(scene, &trees, geometry, place))
+            .collect();
+        let glass = settings.transparent_shadows;
+        let shadows: Vec<_> = scene.objects.iter().map(|object| shadow_of(scene, object, glass)).collect();
+        let shadows = [shadows, vec![Shadow::None; shining.len()]].concat();
+        Ok(Self {
+            level: Level::new(&solids).map_err(|source| error::objects(scene, source))?,
+            lights: LightTable::new(scene),
+            has_filters: shadows.contains(&Shadow::Filter),
+            all_visible: scene.objects.iter().all(|object| object.visible),
+            scene,
+            solids,
+            shadows,
+            shining,
+            trees,
+            glass,
+        })
     }
 
     /// The scene behind it.
@@ -62,42 +122,140 @@ impl<'s> World<'s> {
         self.scene
     }
 
+    /// The box around everything finite over the shutter; empty when there is nothing.
+    pub fn bounds(&self) -> Aabb {
+        self.level.bounds()
+    }
+
+    /// The tree over the objects; `None` where they are few.
+    pub fn object_tree(&self) -> Option<&BspTree> {
+        self.level.tree()
+    }
+
+    /// The tree of each mesh of the scene, in their order.
+    pub fn mesh_trees(&self) -> &[Arc<MeshTree>] {
+        &self.trees
+    }
+
     /// The nearest surface that a ray meets at `time` in `[0, 1]` over the shutter.
     pub fn closest_hit(&self, ray: &Ray, time: f32) -> Option<SurfaceHit> {
-        let mut ray = *ray;
-        let mut nearest = None;
-        for (id, solid) in self.solids.iter().enumerate() {
-            if let Some((t, meeting)) = solid.closest(&ray, time) {
-                if nearest.is_none() || t < ray.range.max {
-                    ray.range.max = t;
-                    nearest = Some((id, meeting));
-                }
+        self.seen(&PassingRay::free(*ray), time, false).map(|seen| seen.surface)
+    }
+
+    /// The nearest surface that the camera sees along a ray.
+    pub fn camera_hit(&self, ray: &Ray, time: f32) -> Option<SurfaceHit> {
+        self.seen(&PassingRay::free(*ray), time, true).map(|seen| seen.surface)
+    }
+
+    /// [`World::camera_hit`] that adds the work on both levels to `cost`.
+    pub fn camera_hit_counted(&self, ray: &Ray, time: f32, cost: &mut TraversalCost) -> Option<SurfaceHit> {
+        let mut below = TraversalCost::default();
+        let found = self.level.closest_counted(ray, cost, |i, ray| {
+            self.is_seen(i, true).then(|| self.solids[i as usize].closest_counted(ray, time, &mut below))?
+        });
+        cost.nodes += below.nodes;
+        cost.leaves += below.leaves;
+        cost.tests += below.tests;
+        let found = found?;
+        self.surface(found.primitive, ray, time, found.data)
+    }
+
+    /// The nearest thing on the way of a ray; invisible objects are left out for the camera.
+    #[inline]
+    pub(crate) fn seen(&self, passing: &PassingRay, time: f32, camera: bool) -> Option<Seen> {
+        let found = self.level.closest(&passing.ray, |i, search| {
+            if !self.is_seen(i, camera) {
+                return None;
             }
-        }
-        let (id, meeting) = nearest?;
-        let surface = self.solids[id].surface(&ray, time, meeting)?;
-        Some(SurfaceHit {
-            hit: surface.hit,
-            owner: Owner::Object {
-                index: id as u32,
-                material: self.scene.objects[id].material(surface.slot),
-            },
-            local: surface.local,
-            color: surface.color,
-            triangle: surface.triangle,
-        })
+            self.solids[i as usize].closest(&passing.seen_by(i, search), time)
+        })?;
+        let ray = passing.seen_by(found.primitive, &passing.ray);
+        let surface = self.surface(found.primitive, &ray, time, found.data)?;
+        Some(Seen { solid: found.primitive, surface })
     }
 
-    /// Whether something that throws shadows lies in the range of the ray.
-    pub fn occluded(&self, ray: &Ray, time: f32) -> bool {
-        let shadow = |(object, solid): (&heliostat_scene::Object, &Solid<'_>)| {
-            object.casts_shadow && solid.closest(ray, time).is_some()
+    /// [`World::seen`] for a ray that may run through glass: where the surface of the glass and another one lie in the same
+    /// place, the ray leaves the glass first, whichever of the two rounding puts in front.
+    pub(crate) fn seen_inside(
+        &self,
+        passing: &PassingRay,
+        inside: Option<Inside>,
+        time: f32,
+        camera: bool,
+    ) -> Option<Seen> {
+        let seen = self.seen(passing, time, camera)?;
+        let Some(inside) = inside.filter(|inside| inside.solid != seen.solid) else { return Some(seen) };
+        let exit = self.seen_on(inside.solid, passing, time).filter(|exit| {
+            let ng = exit.surface.hit.at.ng;
+            ng.dot(passing.ray.dir) > 0.0 && coincide(&exit.surface.hit.at, &seen.surface.hit.at)
+        });
+        Some(exit.unwrap_or(seen))
+    }
+
+    /// The nearest surface of one thing on the way of a ray.
+    fn seen_on(&self, solid: u32, passing: &PassingRay, time: f32) -> Option<Seen> {
+        let ray = passing.seen_by(solid, &passing.ray);
+        let (_, meeting) = self.solids[solid as usize].closest(&ray, time)?;
+        let surface = self.surface(solid, &ray, time, meeting)?;
+        Some(Seen { solid, surface })
+    }
+
+    /// The lights that shine from somewhere.
+    pub(crate) fn lights(&self) -> &[PreparedLight<'s>] {
+        &self.lights.lights
+    }
+
+    /// Ia.
+    pub(crate) fn ambient(&self) -> Rgb {
+        self.lights.ambient
+    }
+
+    fn is_seen(&self, solid: u32, camera: bool) -> bool {
+        !camera || self.all_visible || self.scene.objects.get(solid as usize).is_none_or(|object| object.visible)
+    }
+
+    fn surface(&self, solid: u32, ray: &Ray, time: f32, meeting: Meeting) -> Option<SurfaceHit> {
+        let SurfaceAt { hit, local, slot, color, triangle } =
+            self.solids[solid as usize].surface(ray, time, meeting)?;
+        let owner = match self.scene.objects.get(solid as usize) {
+            Some(object) => Owner::Object { index: solid, material: object.material(slot) },
+            None => Owner::Light(self.shining[solid as usize - self.scene.objects.len()]),
         };
-        self.scene.objects.iter().zip(&self.solids).any(shadow)
+        Some(SurfaceHit { hit, owner, local, color, triangle })
     }
 
-    /// The share of light that comes along a ray past everything that throws shadows.
-    pub fn transmittance(&self, ray: &Ray, time: f32) -> Rgb {
-        if self.occluded(ray, time) { Rgb::ZERO } else { Rgb::ONE }
+    /// The thing behind a hit.
+    fn solid_of(&self, hit: &SurfaceHit) -> Option<&Solid<'s>> {
+        match hit.owner {
+            Owner::Object { index, .. } => self.solids.get(index as usize),
+            Owner::Light(_) => None,
+        }
+    }
+}
+
+/// The area lights that are seen: their index, surface and place.
+fn visible_lights(scene: &Scene) -> impl Iterator<Item = (u32, (&heliostat_scene::object::Geometry, Place<'_>))> {
+    (0..).zip(&scene.lights).filter_map(|(i, light)| match &light.kind {
+        LightKind::Area { geometry, transform, visible: true, .. } => {
+            Some((i, (geometry, Place::Still(transform))))
+        }
+        _ => None,
+    })
+}
+
+/// How an object stops light, by all of its materials.
+fn shadow_of(scene: &Scene, object: &Object, glass: bool) -> Shadow {
+    let lets_through = |material: &Material| {
+        let Surface::Phong(phong) = &material.surface;
+        material.opacity.factor < 1.0
+            || material.opacity.texture.is_some()
+            || (glass && !phong.transparency.is_zero())
+    };
+    if !object.casts_shadow {
+        Shadow::None
+    } else if object.materials.iter().any(|id| lets_through(&scene.materials[id.index()])) {
+        Shadow::Filter
+    } else {
+        Shadow::Solid
     }
 }

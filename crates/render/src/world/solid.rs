@@ -3,22 +3,26 @@
 use super::place::Place;
 use glam::Vec3;
 use heliostat_geometry::shape::Root;
-use heliostat_geometry::{Aabb, Hit, Ray, Shape};
+use heliostat_geometry::{Aabb, Hit, Ray, Shape, TriMesh};
+use heliostat_index::{MeshHit, MeshTree, TraversalCost};
+use heliostat_scene::Scene;
+use heliostat_scene::object::Geometry;
+use std::sync::Arc;
 
-/// A geometry at a place, with its tree where it is a mesh.
-#[derive(Clone, Debug)]
+/// A geometry at a place.
+#[derive(Debug)]
 pub(crate) struct Solid<'s> {
-    pub(crate) geometry: Body<'s>,
+    pub(crate) body: Body<'s>,
     pub(crate) place: Place<'s>,
-    /// The box around it over the shutter, in world space; unbounded for the infinite plane.
-    pub(crate) bounds: Aabb,
 }
 
 /// What there is in local space.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) enum Body<'s> {
     /// An analytic shape.
     Shape(&'s Shape),
+    /// A mesh with its tree.
+    Mesh { mesh: &'s TriMesh, tree: Arc<MeshTree> },
 }
 
 /// Where a ray meets a body, before the surface there is worked out.
@@ -26,11 +30,13 @@ pub(crate) enum Body<'s> {
 pub(crate) enum Meeting {
     /// On a shape.
     Shape(Root),
+    /// On a mesh.
+    Mesh(MeshHit),
 }
 
 /// The surface at a meeting.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Surface {
+pub(crate) struct SurfaceAt {
     /// In world space.
     pub(crate) hit: Hit,
     /// Position in local space.
@@ -43,31 +49,105 @@ pub(crate) struct Surface {
     pub(crate) triangle: Option<(u32, [f32; 3])>,
 }
 
-impl Solid<'_> {
+impl<'s> Solid<'s> {
+    /// A geometry of the scene, whose meshes have these trees.
+    pub(crate) fn new(scene: &'s Scene, trees: &[Arc<MeshTree>], geometry: &'s Geometry, place: Place<'s>) -> Self {
+        let body = match geometry {
+            Geometry::Shape(shape) => Body::Shape(shape),
+            Geometry::Mesh(id) => {
+                Body::Mesh { mesh: &scene.meshes[id.index()], tree: Arc::clone(&trees[id.index()]) }
+            }
+        };
+        Self { body, place }
+    }
+
+    /// The box around it over the shutter, in world space; unbounded for the infinite plane, empty for an empty mesh.
+    pub(crate) fn bounds(&self) -> Aabb {
+        self.place.bounds(match &self.body {
+            Body::Shape(shape) => shape.geometry().bounds(),
+            Body::Mesh { mesh, .. } => mesh.bounds(),
+        })
+    }
+
     /// The nearest meeting in the range of the ray.
     #[inline]
     pub(crate) fn closest(&self, ray: &Ray, time: f32) -> Option<(f32, Meeting)> {
-        self.place.at(time, |transform| match &self.geometry {
+        self.place.at(time, |transform| match &self.body {
             Body::Shape(shape) => {
                 let root = shape.geometry().hit(&transform.local_ray(ray))?;
                 Some((root.t as f32, Meeting::Shape(root)))
             }
+            Body::Mesh { mesh, tree } => {
+                let found = tree.closest_hit(mesh, &transform.ray_to_local(ray))?;
+                Some((found.hit.t, Meeting::Mesh(found)))
+            }
         })?
     }
 
-    /// The surface at a meeting that [`Solid::closest`] gave for the same ray and time.
-    pub(crate) fn surface(&self, ray: &Ray, time: f32, meeting: Meeting) -> Option<Surface> {
-        self.place.at(time, |transform| match (&self.geometry, meeting) {
+    /// [`Solid::closest`] that adds the work of the mesh tree to `cost`.
+    pub(crate) fn closest_counted(&self, ray: &Ray, time: f32, cost: &mut TraversalCost) -> Option<(f32, Meeting)> {
+        let Body::Mesh { mesh, tree } = &self.body else { return self.closest(ray, time) };
+        self.place.at(time, |transform| {
+            let found = tree.closest_hit_counted(mesh, &transform.ray_to_local(ray), cost)?;
+            Some((found.hit.t, Meeting::Mesh(found)))
+        })?
+    }
+
+    /// Whether anything lies in the range of the ray.
+    #[inline]
+    pub(crate) fn blocks(&self, ray: &Ray, time: f32) -> bool {
+        let blocked = self.place.at(time, |transform| match &self.body {
+            Body::Shape(shape) => shape.geometry().hit(&transform.local_ray(ray)).is_some(),
+            Body::Mesh { mesh, tree } => tree.any_hit(mesh, &transform.ray_to_local(ray)),
+        });
+        blocked == Some(true)
+    }
+
+    /// Visits every surface in the range of the ray once, in no certain order.
+    pub(crate) fn each_surface(&self, ray: &Ray, time: f32, mut visit: impl FnMut(SurfaceAt)) {
+        match &self.body {
+            Body::Shape(_) => {
+                let mut rest = *ray;
+                while let Some((t, meeting)) = self.closest(&rest, time) {
+                    self.surface(&rest, time, meeting).into_iter().for_each(&mut visit);
+                    rest.range.min = t.next_up();
+                }
+            }
+            Body::Mesh { mesh, tree } => {
+                self.place.at(time, |transform| {
+                    tree.for_each_hit(mesh, &transform.ray_to_local(ray), |found| {
+                        self.surface(ray, time, Meeting::Mesh(found)).into_iter().for_each(&mut visit);
+                    });
+                });
+            }
+        }
+    }
+
+    /// The surface at a meeting that came from the same ray and time.
+    pub(crate) fn surface(&self, ray: &Ray, time: f32, meeting: Meeting) -> Option<SurfaceAt> {
+        self.place.at(time, |transform| match (&self.body, meeting) {
             (Body::Shape(shape), Meeting::Shape(root)) => {
                 let local = shape.geometry().surface(&transform.local_ray(ray), root);
-                Surface {
+                Some(SurfaceAt {
                     hit: transform.hit_to_world(&local),
                     local: local.p.as_vec3(),
                     slot: 0,
                     color: None,
                     triangle: None,
-                }
+                })
             }
-        })
+            (Body::Mesh { mesh, .. }, Meeting::Mesh(MeshHit { triangle, hit })) => {
+                let local = mesh.surface(triangle, &hit);
+                Some(SurfaceAt {
+                    hit: transform.hit_to_world(&local),
+                    local: local.p.as_vec3(),
+                    slot: mesh.slot(triangle),
+                    color: mesh.color(triangle, &hit),
+                    triangle: Some((triangle, hit.barycentric)),
+                })
+            }
+            // A meeting of the other kind does not come from this body.
+            _ => None,
+        })?
     }
 }

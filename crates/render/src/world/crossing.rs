@@ -1,0 +1,98 @@
+//! Rays that go on behind a surface, where another surface may lie in the same place.
+//!
+//! A glass standing on a floor shares its underside with it. A ray that leaves the glass must not start *behind* the
+//! underside, as [`heliostat_geometry::Hit::spawn`] would have it: there it is behind the floor as well, and the floor is
+//! lost wherever rounding puts it first. So the ray starts before the surface it crosses, and only the things that it
+//! crosses in this place are asked with the origin behind them.
+
+use super::hit::SurfaceHit;
+use glam::Vec3;
+use heliostat_scene::Rgb;
+use heliostat_geometry::error_bound::offset_origin;
+use heliostat_geometry::{Ray, SurfacePoint};
+
+/// So many surfaces may lie in one place; of more, the ray leaves all behind at once.
+const MOST: usize = 4;
+
+/// The ray starts so many error bounds before the surface: the error of another surface in its place is of the same
+/// order, and is not known yet.
+const BEFORE: f32 = 4.0;
+
+/// What a ray crosses where it starts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Crossing {
+    /// The things it leaves behind: indices into the solids.
+    solids: [u32; MOST],
+    count: usize,
+    /// The surface crossed last.
+    at: SurfacePoint,
+    /// Origin behind it.
+    behind: Vec3,
+}
+
+/// A ray and what it crosses where it starts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PassingRay {
+    /// The ray; starts before the surface when there is a crossing.
+    pub(crate) ray: Ray,
+    /// Nothing for a ray that starts in free space or returns from a surface.
+    pub(crate) crossing: Option<Crossing>,
+}
+
+/// The glass that a ray runs through.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Inside {
+    /// Index into the solids.
+    pub(crate) solid: u32,
+    /// Absorption per metre.
+    pub(crate) absorption: Rgb,
+}
+
+impl PassingRay {
+    /// A ray that starts in free space or returns from a surface.
+    pub(crate) fn free(ray: Ray) -> Self {
+        Self { ray, crossing: None }
+    }
+
+    /// A ray in direction `dir` that goes on behind `hit`, which `self` found on thing `solid`.
+    pub(crate) fn behind(&self, solid: u32, hit: &SurfaceHit, dir: Vec3) -> Self {
+        let at = hit.hit.at;
+        let behind = at.spawn(dir);
+        // Surfaces crossed before belong to this place too, when this one lies within their error.
+        let before = self.crossing.filter(|crossing| crossing.is_at(&at));
+        let (mut solids, mut count) = before.map_or(([0; MOST], 0), |crossing| (crossing.solids, crossing.count));
+        if count == MOST {
+            return Self::free(behind);
+        }
+        solids[count] = solid;
+        count += 1;
+        let crossing = Crossing { solids, count, at, behind: behind.origin };
+        let origin = offset_origin(at.p, BEFORE * at.p_err, at.ng, -dir);
+        Self { ray: Ray::new(origin, dir), crossing: Some(crossing) }
+    }
+
+    /// The ray with which a thing is asked: `range` of the search so far, the origin behind things that are crossed.
+    #[inline]
+    pub(super) fn seen_by(&self, solid: u32, search: &Ray) -> Ray {
+        match &self.crossing {
+            Some(crossing) if crossing.solids[..crossing.count].contains(&solid) => {
+                Ray { origin: crossing.behind, ..*search }
+            }
+            _ => *search,
+        }
+    }
+}
+
+impl Crossing {
+    /// Whether a surface lies in the place that is crossed.
+    fn is_at(&self, other: &SurfacePoint) -> bool {
+        coincide(&self.at, other)
+    }
+}
+
+/// Whether two points of surfaces cannot be told apart across either surface.
+pub(crate) fn coincide(a: &SurfacePoint, b: &SurfacePoint) -> bool {
+    let way = b.p - a.p;
+    let error = 2.0 * (a.p_err + b.p_err);
+    [a.ng, b.ng].iter().all(|ng| ng.dot(way).abs() <= ng.abs().dot(error))
+}

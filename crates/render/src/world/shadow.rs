@@ -1,0 +1,106 @@
+//! What is left of light on its way: solid things stop it, cut-outs and (as an option) glass let a part through.
+
+use super::solid::{Solid, SurfaceAt};
+use super::{Shadow, World};
+use crate::material_eval::MaterialEval;
+use crate::phong::{fresnel, refract};
+use crate::texture_eval::TexturePoint;
+use glam::Vec3;
+use heliostat_geometry::Ray;
+use heliostat_scene::material::{FresnelMode, Phong, Surface};
+use heliostat_scene::{Material, Object, Rgb, Scene};
+
+impl World<'_> {
+    /// Whether something that lets no light through lies in the range of the ray.
+    #[inline]
+    pub fn occluded(&self, ray: &Ray, time: f32) -> bool {
+        self.level.any(ray, |i, ray| {
+            self.shadows[i as usize] == Shadow::Solid && self.solids[i as usize].blocks(ray, time)
+        })
+    }
+
+    /// The share of light that comes along a ray past everything that throws shadows.
+    ///
+    /// Light goes straight on: glass colours it by `transparency` at each surface and by its absorption inside, but does
+    /// not bend it.
+    #[inline]
+    pub fn transmittance(&self, ray: &Ray, time: f32) -> Rgb {
+        if self.occluded(ray, time) {
+            Rgb::ZERO
+        } else if self.has_filters {
+            self.filtered(ray, time)
+        } else {
+            Rgb::ONE
+        }
+    }
+
+    /// The share that passes the things that let light through.
+    fn filtered(&self, ray: &Ray, time: f32) -> Rgb {
+        let mut share = Rgb::ONE;
+        self.level.each(ray, |i| {
+            if self.shadows[i as usize] == Shadow::Filter && share != Rgb::ZERO {
+                let filter = Filter { scene: self.scene, object: &self.scene.objects[i as usize], ray, glass: self.glass };
+                share *= filter.share(&self.solids[i as usize], time);
+            }
+        });
+        share
+    }
+}
+
+/// One thing that lets light through, and the light.
+struct Filter<'a> {
+    scene: &'a Scene,
+    object: &'a Object,
+    ray: &'a Ray,
+    /// Whether transparent surfaces let light through.
+    glass: bool,
+}
+
+impl Filter<'_> {
+    /// The share of light that passes all surfaces of the thing.
+    ///
+    /// The way inside is the sum of `t` where the ray leaves, minus those where it enters: it needs no order.
+    fn share(&self, solid: &Solid<'_>, time: f32) -> Rgb {
+        let mut share = Rgb::ONE;
+        // Absorption times way, and absorption that still goes on at the end of the ray.
+        let (mut absorbed, mut open) = (Vec3::ZERO, Vec3::ZERO);
+        solid.each_surface(self.ray, time, |surface| {
+            let (passing, absorption) = self.at_surface(&surface);
+            share *= passing;
+            let leaves = self.ray.dir.dot(surface.hit.at.ng) > 0.0;
+            let sign = if leaves { 1.0 } else { -1.0 };
+            absorbed += sign * surface.hit.t * absorption;
+            open -= sign * absorption;
+        });
+        if self.ray.range.max.is_finite() {
+            absorbed += self.ray.range.max * open;
+        }
+        let depth = self.ray.dir.length() * absorbed.max(Vec3::ZERO);
+        if depth == Vec3::ZERO { share } else { share * (-depth).exp() }
+    }
+
+    /// The share that passes one surface, and the absorption behind it.
+    fn at_surface(&self, surface: &SurfaceAt) -> (Rgb, Rgb) {
+        let material: &Material = &self.scene.materials[self.object.material(surface.slot).index()];
+        let at = TexturePoint { uv: surface.hit.uv, local: surface.local };
+        let eval = MaterialEval { textures: &self.scene.textures, at };
+        let opacity = eval.opacity(material);
+        let Surface::Phong(phong) = &material.surface;
+        if !self.glass || phong.transparency.is_zero() {
+            return (Rgb::splat(1.0 - opacity), Rgb::ZERO);
+        }
+        let glass = eval.color(&phong.transparency) * (1.0 - self.reflected(phong, surface));
+        (Rgb::splat(1.0 - opacity) + opacity * glass, phong.absorption)
+    }
+
+    /// The share that the surface reflects, seen from outside.
+    fn reflected(&self, phong: &Phong, surface: &SurfaceAt) -> f32 {
+        if phong.fresnel == FresnelMode::Off {
+            return 0.0;
+        }
+        let dir = self.ray.dir.normalize();
+        let n = if dir.dot(surface.hit.ns) < 0.0 { surface.hit.ns } else { -surface.hit.ns };
+        let eta = 1.0 / phong.ior;
+        refract(dir, n, eta).map_or(1.0, |refraction| fresnel(-dir.dot(n), refraction.cos, eta))
+    }
+}
