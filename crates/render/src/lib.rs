@@ -1,5 +1,6 @@
 //! Whitted ray tracing over Heliostat scenes.
 
+mod background;
 mod camera_ray;
 mod check;
 pub mod counters;
@@ -8,12 +9,17 @@ pub mod film;
 pub mod filter;
 pub mod integrator;
 mod layers;
+mod light;
+mod material_eval;
 mod meta;
+mod phong;
 mod post_dof;
 pub mod prepared;
 pub mod sampler;
 pub mod schedule;
+mod shading;
 pub mod stats;
+mod texture_eval;
 pub mod world;
 
 pub use counters::RayCounters;
@@ -24,4 +30,4 @@ pub use prepared::Prepared;
 pub use sampler::Sampler;
 pub use schedule::{Control, PassOutcome, TileDone};
 pub use stats::RenderStats;
-pub use world::World;
+pub use world::{TreeCache, World, WorldError};

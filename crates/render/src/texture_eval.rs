@@ -72,9 +72,8 @@ fn snapped_floor(v: f32) -> f32 {
 fn image_at(image: &Image, wraps: [Wrap; 2], filtering: Filtering, uv: Vec2) -> Vec4 {
     let x = texel_position(uv.x, image.width, wraps[0]);
     let y = texel_position(1.0 - uv.y, image.height, wraps[1]);
-    let pixel = |x: i64, y: i64| {
-        image.pixel(wrapped(x, image.width, wraps[0]), wrapped(y, image.height, wraps[1]))
-    };
+    let pixel =
+        |x: i64, y: i64| image.pixel(wrapped(x, image.width, wraps[0]), wrapped(y, image.height, wraps[1]));
     match filtering {
         Filtering::Nearest => pixel(x.floor() as i64, y.floor() as i64),
         Filtering::Bilinear => {

@@ -182,7 +182,9 @@ impl Whitted {
                 passing: branch.passing.behind(seen.solid, &seen.surface, dir),
                 weight: branch.weight * weight,
                 depth: branch.depth + 1,
-                inside: point.enters.then(|| Inside { solid: seen.solid, absorption: point.phong.absorption }),
+                inside: point
+                    .enters
+                    .then_some(Inside { solid: seen.solid, absorption: point.phong.absorption }),
                 from_camera: false,
                 sampler: branch.sampler.fork(GLASS_BRANCH),
                 ..*branch

@@ -37,7 +37,9 @@ enum Radiance<'s> {
 impl<'s> AreaLight<'s> {
     /// An area light of the scene; `None` when its surface has no finite area above 0.
     pub(super) fn of_light(scene: &'s Scene, light: &'s Light) -> Option<Self> {
-        let LightKind::Area { geometry, transform, two_sided, falloff, .. } = &light.kind else { return None };
+        let LightKind::Area { geometry, transform, two_sided, falloff, .. } = &light.kind else {
+            return None;
+        };
         Some(Self {
             emitter: Emitter::new(scene, geometry, |_| true)?,
             place: Place::Still(transform),
@@ -114,7 +116,11 @@ impl<'s> AreaLight<'s> {
         let sample = local_sphere.point(local_normal);
         let at = transform.sample_to_world(&sample).at;
         let radiance = self.radiance_at(&EmitterSample { point: sample, slot: 0 });
-        Some(LightSample { to_light: seen.dir, arriving: seen.solid_angle * radiance, target: self.target(at) })
+        Some(LightSample {
+            to_light: seen.dir,
+            arriving: seen.solid_angle * radiance,
+            target: self.target(at),
+        })
     }
 
     /// The cosine at the light from that of its normal with the direction to it; 0 on a dark side.

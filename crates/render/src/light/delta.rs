@@ -52,7 +52,11 @@ impl PointLight {
             Falloff::InverseSquare => share / distance_squared,
             Falloff::None => share,
         };
-        Some(LightSample { to_light, arriving: weakened * self.intensity, target: Target::Point(self.position) })
+        Some(LightSample {
+            to_light,
+            arriving: weakened * self.intensity,
+            target: Target::Point(self.position),
+        })
     }
 }
 

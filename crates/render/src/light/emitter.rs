@@ -3,8 +3,8 @@
 use glam::Vec2;
 use heliostat_geometry::shape::AreaSample;
 use heliostat_geometry::{Shape, TriMesh};
-use heliostat_scene::object::Geometry;
 use heliostat_scene::Scene;
+use heliostat_scene::object::Geometry;
 
 /// A surface of finite area above 0.
 #[derive(Debug)]
@@ -24,7 +24,11 @@ pub(super) struct EmitterSample {
 
 impl<'s> Emitter<'s> {
     /// The surface of a geometry, on meshes only where `shines(slot)`; `None` without a finite area above 0.
-    pub(super) fn new(scene: &'s Scene, geometry: &'s Geometry, shines: impl Fn(u16) -> bool) -> Option<Self> {
+    pub(super) fn new(
+        scene: &'s Scene,
+        geometry: &'s Geometry,
+        shines: impl Fn(u16) -> bool,
+    ) -> Option<Self> {
         match geometry {
             Geometry::Shape(shape) => {
                 let area = shape.geometry().area();

@@ -7,9 +7,9 @@
 
 use super::hit::SurfaceHit;
 use glam::Vec3;
-use heliostat_scene::Rgb;
 use heliostat_geometry::error_bound::offset_origin;
 use heliostat_geometry::{Ray, SurfacePoint};
+use heliostat_scene::Rgb;
 
 /// So many surfaces may lie in one place; of more, the ray leaves all behind at once.
 const MOST: usize = 4;
@@ -60,7 +60,8 @@ impl PassingRay {
         let behind = at.spawn(dir);
         // Surfaces crossed before belong to this place too, when this one lies within their error.
         let before = self.crossing.filter(|crossing| crossing.is_at(&at));
-        let (mut solids, mut count) = before.map_or(([0; MOST], 0), |crossing| (crossing.solids, crossing.count));
+        let (mut solids, mut count) =
+            before.map_or(([0; MOST], 0), |crossing| (crossing.solids, crossing.count));
         if count == MOST {
             return Self::free(behind);
         }

@@ -1,6 +1,5 @@
 //! Why a scene could not be made ready for rays.
 
-use heliostat_geometry::mesh::MeshError;
 use heliostat_index::BuildError;
 use heliostat_scene::Scene;
 
@@ -36,16 +35,8 @@ pub enum WorldError {
         /// Rows.
         height: u32,
     },
-    /// A mesh is not whole.
+    /// A mesh is damaged, or no tree could be built over it.
     #[error("mesh {mesh} cannot be used")]
-    Mesh {
-        /// Index of the mesh.
-        mesh: usize,
-        /// What is wrong with it.
-        source: MeshError,
-    },
-    /// No tree could be built over a mesh.
-    #[error("no index could be built over mesh {mesh}")]
     MeshTree {
         /// Index of the mesh.
         mesh: usize,
@@ -65,7 +56,9 @@ pub enum WorldError {
 /// The error of an index over objects, with the name of the object that cannot be placed.
 pub(super) fn objects(scene: &Scene, source: BuildError) -> WorldError {
     let bad = match source {
-        BuildError::Bounds { primitive, .. } => scene.objects.get(primitive as usize).map(|object| &object.name),
+        BuildError::Bounds { primitive, .. } => {
+            scene.objects.get(primitive as usize).map(|object| &object.name)
+        }
         _ => None,
     };
     let what = bad.map_or_else(|| "the scene".to_owned(), |name| format!("object `{name}`"));

@@ -2,7 +2,7 @@
 
 use super::solid::Solid;
 use heliostat_geometry::{Aabb, Ray};
-use heliostat_index::{BspTree, BruteForce, BuildError, BuildParams, Found, RayIndex, TraversalCost};
+use heliostat_index::{BruteForce, BspTree, BuildError, BuildParams, Found, RayIndex, TraversalCost};
 
 /// Up to so many things are looked at one by one: a walk through a tree would cost more.
 const FEW: usize = 8;
@@ -24,9 +24,20 @@ enum Index {
 
 impl Level {
     /// An index over all solids that are not empty.
+    ///
+    /// # Errors
+    /// When a solid has no place in space: the error names it by its index.
     pub(super) fn new(solids: &[Solid<'_>]) -> Result<Self, BuildError> {
-        let placed = (0..).zip(solids.iter().map(Solid::bounds));
-        let (ids, boxes): (Vec<u32>, Vec<Aabb>) = placed.filter(|(_, bounds)| !bounds.is_empty()).unzip();
+        let (mut ids, mut boxes) = (Vec::new(), Vec::new());
+        for (id, bounds) in (0..).zip(solids.iter().map(Solid::bounds)) {
+            if bounds.min.is_nan() || bounds.max.is_nan() {
+                return Err(BuildError::Bounds { primitive: id, bounds });
+            }
+            if !bounds.is_empty() {
+                ids.push(id);
+                boxes.push(bounds);
+            }
+        }
         let index = if boxes.len() > FEW {
             Index::Tree(BspTree::build(&boxes, &BuildParams::SAH)?)
         } else {

@@ -15,15 +15,14 @@ mod solid;
 mod terminator;
 mod trees;
 
-pub(crate) use crossing::{Inside, PassingRay};
 use crossing::coincide;
+pub(crate) use crossing::{Inside, PassingRay};
 pub use error::WorldError;
 pub use hit::{Owner, SurfaceHit};
 pub(crate) use place::Place;
 pub use trees::TreeCache;
 
 use crate::light::{LightTable, PreparedLight};
-use glam::Vec3;
 use heliostat_geometry::{Aabb, Ray};
 use heliostat_index::{BspTree, MeshTree, TraversalCost};
 use heliostat_scene::light::LightKind;
@@ -211,7 +210,9 @@ impl<'s> World<'s> {
     }
 
     fn is_seen(&self, solid: u32, camera: bool) -> bool {
-        !camera || self.all_visible || self.scene.objects.get(solid as usize).is_none_or(|object| object.visible)
+        !camera
+            || self.all_visible
+            || self.scene.objects.get(solid as usize).is_none_or(|object| object.visible)
     }
 
     fn surface(&self, solid: u32, ray: &Ray, time: f32, meeting: Meeting) -> Option<SurfaceHit> {
@@ -234,7 +235,9 @@ impl<'s> World<'s> {
 }
 
 /// The area lights that are seen: their index, surface and place.
-fn visible_lights(scene: &Scene) -> impl Iterator<Item = (u32, (&heliostat_scene::object::Geometry, Place<'_>))> {
+fn visible_lights(
+    scene: &Scene,
+) -> impl Iterator<Item = (u32, (&heliostat_scene::object::Geometry, Place<'_>))> {
     (0..).zip(&scene.lights).filter_map(|(i, light)| match &light.kind {
         LightKind::Area { geometry, transform, visible: true, .. } => {
             Some((i, (geometry, Place::Still(transform))))

@@ -39,7 +39,12 @@ impl World<'_> {
         let mut share = Rgb::ONE;
         self.level.each(ray, |i| {
             if self.shadows[i as usize] == Shadow::Filter && share != Rgb::ZERO {
-                let filter = Filter { scene: self.scene, object: &self.scene.objects[i as usize], ray, glass: self.glass };
+                let filter = Filter {
+                    scene: self.scene,
+                    object: &self.scene.objects[i as usize],
+                    ray,
+                    glass: self.glass,
+                };
                 share *= filter.share(&self.solids[i as usize], time);
             }
         });

@@ -51,7 +51,12 @@ pub(crate) struct SurfaceAt {
 
 impl<'s> Solid<'s> {
     /// A geometry of the scene, whose meshes have these trees.
-    pub(crate) fn new(scene: &'s Scene, trees: &[Arc<MeshTree>], geometry: &'s Geometry, place: Place<'s>) -> Self {
+    pub(crate) fn new(
+        scene: &'s Scene,
+        trees: &[Arc<MeshTree>],
+        geometry: &'s Geometry,
+        place: Place<'s>,
+    ) -> Self {
         let body = match geometry {
             Geometry::Shape(shape) => Body::Shape(shape),
             Geometry::Mesh(id) => {
@@ -85,7 +90,12 @@ impl<'s> Solid<'s> {
     }
 
     /// [`Solid::closest`] that adds the work of the mesh tree to `cost`.
-    pub(crate) fn closest_counted(&self, ray: &Ray, time: f32, cost: &mut TraversalCost) -> Option<(f32, Meeting)> {
+    pub(crate) fn closest_counted(
+        &self,
+        ray: &Ray,
+        time: f32,
+        cost: &mut TraversalCost,
+    ) -> Option<(f32, Meeting)> {
         let Body::Mesh { mesh, tree } = &self.body else { return self.closest(ray, time) };
         self.place.at(time, |transform| {
             let found = tree.closest_hit_counted(mesh, &transform.ray_to_local(ray), cost)?;

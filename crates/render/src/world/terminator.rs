@@ -18,7 +18,9 @@ impl World<'_> {
     /// Zero on shapes, on faceted meshes, and where the smooth surface lies below the facet.
     pub(crate) fn lift(&self, hit: &SurfaceHit, turned: bool, time: f32) -> Vec3 {
         let Some((triangle, weights)) = hit.triangle else { return Vec3::ZERO };
-        let Some(Body::Mesh { mesh, .. }) = self.solid_of(hit).map(|solid| &solid.body) else { return Vec3::ZERO };
+        let Some(Body::Mesh { mesh, .. }) = self.solid_of(hit).map(|solid| &solid.body) else {
+            return Vec3::ZERO;
+        };
         if mesh.normals.is_empty() {
             return Vec3::ZERO;
         }

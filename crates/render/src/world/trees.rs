@@ -38,7 +38,6 @@ impl TreeCache {
 /// Checks a mesh and builds its tree.
 fn build(scene: &Scene, mesh: &Arc<TriMesh>) -> Result<Arc<MeshTree>, WorldError> {
     let place = || scene.meshes.iter().position(|other| Arc::ptr_eq(other, mesh)).unwrap_or_default();
-    mesh.validate().map_err(|source| WorldError::Mesh { mesh: place(), source })?;
     let tree = MeshTree::build(mesh, &BuildParams::SAH)
         .map_err(|source| WorldError::MeshTree { mesh: place(), source })?;
     Ok(Arc::new(tree))
