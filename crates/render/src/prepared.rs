@@ -59,7 +59,7 @@ impl<'s> Prepared<'s> {
             .stack_size(STACK + STACK_PER_DEPTH * settings.max_depth as usize)
             .thread_name(|i| format!("heliostat-{i}"))
             .build()?;
-        let (world, seconds) = timed(|| pool.install(|| World::new(scene)));
+        let (world, seconds) = timed(|| pool.install(|| World::new(scene, settings)));
         let world = world?;
         let mut stats = RenderStats::default();
         stats.seconds.prepare = seconds;
