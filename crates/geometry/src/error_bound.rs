@@ -34,6 +34,15 @@ pub fn triangle_point(corners: [Vec3; 3]) -> f64 {
     gamma_f64(16) * 2.0 * f64::from(extent)
 }
 
+/// Bound of the error, per axis, of a point computed in `f64` on an analytic shape whose largest coordinate is
+/// `extent`, and of the next root along a ray from there.
+///
+/// Root finders work on coordinates shifted to the shape, so that their errors are a few dozen roundings of numbers
+/// as large as the shape.
+pub fn shape_point(extent: f64) -> f64 {
+    gamma_f64(64) * extent
+}
+
 /// Grows the slab distances `near <= far` by the error of `(plane - origin) / dir`, outward on both sides.
 ///
 /// A NaN from `0 / 0` cannot occur: the caller treats a zero direction by itself.
@@ -71,6 +80,14 @@ pub fn abs(m: DMat3) -> DMat3 {
 /// brought there by a transform and rounded: how far a point of the face `x = v` may seem to lie from it.
 pub fn on_face(v: f32) -> f32 {
     gamma(16) * v.abs().max(1.0)
+}
+
+/// Bound of the error, per axis, with which a ray along `segment` arrives at its end at `t = 1`.
+///
+/// One rounding where the direction is made, one of the length that is compared with 1, and one where the direction is
+/// seen from the space of a mesh; a rotation can bring the error of any axis into any other.
+pub fn segment_end(segment: Vec3) -> Vec3 {
+    Vec3::splat(gamma(8) * segment.abs().max_element())
 }
 
 /// Moves `p` along the unit normal `n`, to the side that `dir` points to, out of the box of error `p_err`.

@@ -1,6 +1,6 @@
 //! A point on a surface with the bound of its error, and the rays that leave it.
 
-use crate::error_bound::offset_origin;
+use crate::error_bound::{offset_origin, segment_end};
 use crate::ray::{Interval, Ray};
 use glam::{Vec2, Vec3};
 
@@ -31,7 +31,8 @@ impl SurfacePoint {
 
     /// A ray to a point on another surface, with `t` in `[0, 1]`; it ends just before that surface.
     pub fn spawn_to_surface(&self, target: &Self) -> Ray {
-        self.spawn_to(offset_origin(target.p, target.p_err, target.ng, self.p - target.p))
+        let back = self.p - target.p;
+        self.spawn_to(offset_origin(target.p, target.p_err + segment_end(back), target.ng, back))
     }
 }
 

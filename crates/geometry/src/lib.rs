@@ -26,6 +26,8 @@ pub mod hit;
 pub mod mesh;
 pub mod ray;
 pub mod shape;
+#[cfg(feature = "test-support")]
+pub mod strategies;
 pub mod transform;
 pub mod triangle;
 pub mod warp;

@@ -16,20 +16,24 @@ impl Interval {
     pub const POSITIVE: Self = Self { min: 0.0, max: f32::INFINITY };
 
     /// Whether `t` lies inside; false for NaN.
+    #[inline]
     pub fn contains(self, t: f32) -> bool {
         self.min <= t && t <= self.max
     }
 
     /// The part that both cover; may be empty.
     #[must_use]
+    #[inline]
     pub fn intersect(self, other: Self) -> Self {
         Self { min: self.min.max(other.min), max: self.max.min(other.max) }
     }
 
     /// Whether no parameter lies inside.
+    #[inline]
     pub fn is_empty(self) -> bool {
         // Written so that a NaN end counts as empty.
-        !(self.min <= self.max)
+        let holds_some = self.min <= self.max;
+        !holds_some
     }
 }
 
@@ -48,11 +52,13 @@ pub struct Ray {
 
 impl Ray {
     /// A ray over all of `t >= 0`.
+    #[inline]
     pub fn new(origin: Vec3, dir: Vec3) -> Self {
         Self { origin, dir, range: Interval::POSITIVE }
     }
 
     /// The point at parameter `t`.
+    #[inline]
     pub fn at(&self, t: f32) -> Vec3 {
         self.origin + t * self.dir
     }
@@ -85,6 +91,7 @@ pub struct LocalRay {
 
 impl LocalRay {
     /// The point at parameter `t`.
+    #[inline]
     pub fn at(&self, t: f64) -> DVec3 {
         self.origin + t * self.dir
     }

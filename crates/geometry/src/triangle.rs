@@ -185,13 +185,9 @@ fn plane_distance(ray: &TriangleRay, corners: [Vec3; 3], weights: [f32; 3]) -> O
     // ahead is hit, or a ray along a silhouette could leave a closed mesh.
     let facing = normal.dot(dir);
     let t = normal.dot(a) / facing;
-    if !(t > 0.0 && facing != 0.0) {
-        if !(nearest > 0.0) {
-            return None;
-        }
-        if facing == 0.0 {
-            return Some((0..3).map(|i| f64::from(weights[i]) * at[i]).sum());
-        }
+    let is_ahead = nearest > 0.0;
+    if facing == 0.0 {
+        return is_ahead.then(|| (0..3).map(|i| f64::from(weights[i]) * at[i]).sum());
     }
-    Some(t.max(nearest).min(farthest))
+    (t > 0.0 || is_ahead).then(|| t.max(nearest).min(farthest))
 }

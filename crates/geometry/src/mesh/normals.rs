@@ -4,6 +4,9 @@ use super::TriMesh;
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 
+/// For the first vertex at each position, the triangles around it with their angles there.
+type Fans = HashMap<u32, Vec<(u32, f64)>>;
+
 impl TriMesh {
     /// Makes shading normals: smooth between triangles whose normals differ by at most `max_angle` radians around
     /// the vertex they share, sharp elsewhere. Vertices at sharp edges are split.
@@ -40,7 +43,7 @@ impl TriMesh {
 
     /// For each vertex the first one at its position, and for each such first vertex its triangles with their
     /// angles there.
-    fn corners_by_position(&self) -> (Vec<u32>, HashMap<u32, Vec<(u32, f64)>>) {
+    fn corners_by_position(&self) -> (Vec<u32>, Fans) {
         let mut at: HashMap<[u32; 3], u32> = HashMap::with_capacity(self.positions.len());
         let first: Vec<u32> = (0u32..)
             .zip(&self.positions)

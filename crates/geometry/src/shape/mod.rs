@@ -4,10 +4,34 @@
 //! stand on `y = 0`; sphere, box and torus are centred at the origin. A [`crate::Transform`] puts them into the
 //! world. Roots are found in `f64`: next to the rounding of an `f32` ray origin their own error vanishes, which is
 //! what lets [`crate::Hit::spawn`] promise that a ray leaves the shape it started on.
+//!
+//! Surface parameters lie in `[0, 1]` (metres on the infinite plane) and are upright seen from outside: `u` to the
+//! right, `v` up, `dpdu x dpdv` along the outward normal. Around the y axis `u = 0.5` faces `+z`. Flat parts are
+//! mapped straight, without a pole.
 
+mod cone;
+mod cuboid;
+mod cylinder;
+mod disk;
+mod flat;
+mod frustum;
+mod plane;
+mod quartic;
+mod rectangle;
+mod round;
 mod sphere;
+mod torus;
+mod triangle;
 
+pub use cone::Cone;
+pub use cuboid::Cuboid;
+pub use cylinder::Cylinder;
+pub use disk::Disk;
+pub use plane::Plane;
+pub use rectangle::Rectangle;
 pub use sphere::Sphere;
+pub use torus::Torus;
+pub use triangle::Triangle;
 
 use crate::aabb::Aabb;
 use crate::ray::LocalRay;
@@ -73,17 +97,70 @@ pub trait Geometry {
 }
 
 /// The closed list of analytic shapes.
+///
+/// ```
+/// use glam::Vec3;
+/// use heliostat_geometry::shape::{Shape, Sphere};
+/// use heliostat_geometry::{Ray, Transform};
+///
+/// let shape = Shape::Sphere(Sphere { radius: 1.0 });
+/// let place = Transform::translation(Vec3::new(0.0, 0.0, -4.0));
+/// let ray = place.local_ray(&Ray::new(Vec3::ZERO, Vec3::NEG_Z));
+/// let root = shape.hit(&ray).unwrap();
+/// let hit = place.hit_to_world(&shape.geometry().surface(&ray, root));
+/// assert_eq!((hit.t, hit.at.ng), (3.0, Vec3::Z));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shape {
     /// See [`Sphere`].
     Sphere(Sphere),
+    /// See [`Cuboid`].
+    Cuboid(Cuboid),
+    /// See [`Plane`].
+    Plane(Plane),
+    /// See [`Rectangle`].
+    Rectangle(Rectangle),
+    /// See [`Disk`].
+    Disk(Disk),
+    /// See [`Cylinder`].
+    Cylinder(Cylinder),
+    /// See [`Cone`].
+    Cone(Cone),
+    /// See [`Torus`].
+    Torus(Torus),
+    /// See [`Triangle`].
+    Triangle(Triangle),
 }
 
 impl Shape {
-    /// The shape behind its common face; a new shape adds its arm here.
+    /// The nearest root that the ray accepts: [`Geometry::hit`] without the indirect call.
+    #[inline]
+    pub fn hit(&self, ray: &LocalRay) -> Option<Root> {
+        match self {
+            Self::Sphere(s) => s.hit(ray),
+            Self::Cuboid(s) => s.hit(ray),
+            Self::Plane(s) => s.hit(ray),
+            Self::Rectangle(s) => s.hit(ray),
+            Self::Disk(s) => s.hit(ray),
+            Self::Cylinder(s) => s.hit(ray),
+            Self::Cone(s) => s.hit(ray),
+            Self::Torus(s) => s.hit(ray),
+            Self::Triangle(s) => s.hit(ray),
+        }
+    }
+
+    /// The shape behind its common face, for everything that is not hot; a new shape adds its arm here.
     pub fn geometry(&self) -> &dyn Geometry {
         match self {
             Self::Sphere(s) => s,
+            Self::Cuboid(s) => s,
+            Self::Plane(s) => s,
+            Self::Rectangle(s) => s,
+            Self::Disk(s) => s,
+            Self::Cylinder(s) => s,
+            Self::Cone(s) => s,
+            Self::Torus(s) => s,
+            Self::Triangle(s) => s,
         }
     }
 }

@@ -1,10 +1,12 @@
 //! A sphere around the origin.
 
+use super::round::Radial;
 use super::{AreaSample, Geometry, LocalHit, Root};
 use crate::aabb::Aabb;
-use crate::error_bound::gamma_f64;
+use crate::error_bound::shape_point;
 use crate::ray::LocalRay;
-use glam::{DVec3, Vec2, Vec3};
+use glam::{Vec2, Vec3};
+use std::f32::consts::FRAC_1_PI;
 use std::f64::consts::{PI, TAU};
 
 /// A sphere around the origin; `u` runs around the y axis, `v` from the south pole to the north pole.
@@ -30,38 +32,39 @@ impl Sphere {
 }
 
 impl Geometry for Sphere {
+    #[inline]
     fn hit(&self, ray: &LocalRay) -> Option<Root> {
-        let r = f64::from(self.radius);
-        // Solve about the point of closest approach, where nothing cancels (Hearn and Baker; Haines et al. 2019).
-        let a = ray.dir.length_squared();
+        let r_squared = f64::from(self.radius) * f64::from(self.radius);
+        // Outside and moving away: the common miss costs two products.
         let b = -ray.origin.dot(ray.dir);
-        let closest = ray.origin + (b / a) * ray.dir;
-        let discriminant = (r * r - closest.length_squared()) * a;
+        let c = ray.origin.length_squared() - r_squared;
+        if c > 0.0 && b <= 0.0 {
+            return None;
+        }
+        // Compare radius and distance of the line, in which nothing cancels (Haines et al., Ray Tracing Gems, ch. 7).
+        let a = ray.dir.length_squared();
+        let discriminant = r_squared * a - ray.origin.cross(ray.dir).length_squared();
         if discriminant < 0.0 {
             return None;
         }
         let q = b + discriminant.sqrt().copysign(b);
-        let c = ray.origin.length_squared() - r * r;
         let (t0, t1) = if b > 0.0 { (c / q, q / a) } else { (q / a, c / q) };
         [t0, t1].into_iter().find(|&t| ray.accepts(t)).map(|t| Root { t, part: 0 })
     }
 
     fn surface(&self, ray: &LocalRay, root: Root) -> LocalHit {
+        let r = f64::from(self.radius);
         let n = ray.at(root.t).normalize();
-        let p = f64::from(self.radius) * n;
-        let phi = p.x.atan2(p.z).rem_euclid(TAU);
-        let theta = n.y.clamp(-1.0, 1.0).asin();
-        let around = DVec3::new(p.z, 0.0, -p.x);
-        let upward = DVec3::new(-n.y * phi.sin(), theta.cos(), -n.y * phi.cos()) * f64::from(self.radius);
+        let (radial, ring) = Radial::through(n);
         LocalHit {
             t: root.t,
-            p,
-            p_err: gamma_f64(16) * f64::from(self.radius),
+            p: r * n,
+            p_err: shape_point(r),
             ng: n,
             ns: n,
-            uv: Vec2::new((phi / TAU) as f32, (theta / PI + 0.5) as f32),
-            dpdu: (TAU * around).as_vec3(),
-            dpdv: (PI * upward).as_vec3(),
+            uv: Vec2::new(radial.u(), latitude(ring, n.y)),
+            dpdu: radial.dpdu(r * ring),
+            dpdv: (PI * r * radial.point(-n.y, ring)).as_vec3(),
         }
     }
 
@@ -74,18 +77,26 @@ impl Geometry for Sphere {
     }
 
     fn sample(&self, u: Vec2) -> Option<AreaSample> {
+        let area = self.area();
+        if area <= 0.0 {
+            return None;
+        }
         // Archimedes: equal steps of height cut equal areas.
-        let y = 1.0 - 2.0 * f64::from(u.y);
-        let ring = (1.0 - y * y).max(0.0).sqrt();
-        let (sin, cos) = (TAU * f64::from(u.x)).sin_cos();
-        let ng = DVec3::new(ring * sin, y, ring * cos);
-        let v = y.asin() / PI + 0.5;
+        let height = f64::from(u.y);
+        let ring = 2.0 * (height * (1.0 - height)).max(0.0).sqrt();
+        let ng = Radial::at(u.x).point(ring, 2.0 * height - 1.0);
+        let r = f64::from(self.radius);
         Some(AreaSample {
-            p: f64::from(self.radius) * ng,
-            p_err: gamma_f64(16) * f64::from(self.radius),
+            p: r * ng,
+            p_err: shape_point(r),
             ng,
-            uv: Vec2::new(u.x, v as f32),
-            pdf: 1.0 / self.area(),
+            uv: Vec2::new(u.x, latitude(ring, ng.y)),
+            pdf: 1.0 / area,
         })
     }
+}
+
+/// The parameter `v` of a point on the unit sphere, by its distance from the axis and its height.
+fn latitude(ring: f64, y: f64) -> f32 {
+    (y as f32).atan2(ring as f32) * FRAC_1_PI + 0.5
 }
