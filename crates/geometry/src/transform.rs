@@ -8,6 +8,16 @@ use crate::shape::{AreaSample, LocalHit};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 /// An invertible affine map from local space to world space. Scales may differ per axis and may mirror.
+///
+/// ```
+/// use glam::Vec3;
+/// use heliostat_geometry::Transform;
+///
+/// let turn = Transform::rotation_xyz(Vec3::new(0.0, 0.0, std::f32::consts::FRAC_PI_2));
+/// let place = turn.then(&Transform::translation(Vec3::new(5.0, 0.0, 0.0))).unwrap();
+/// assert!(place.point(Vec3::X).distance(Vec3::new(5.0, 1.0, 0.0)) < 1e-6);
+/// assert_eq!(place.point_to_local(Vec3::new(5.0, 0.0, 0.0)), Vec3::ZERO);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Transform {
     to_world: DAffine3,
@@ -51,6 +61,69 @@ impl Transform {
         }
     }
 
+    /// A scale per axis, negative to mirror; `None` when one is 0 or not finite.
+    pub fn scaling(by: Vec3) -> Option<Self> {
+        Self::new(DAffine3::from_scale(by.as_dvec3()))
+    }
+
+    /// A turn about the x axis, then about the y axis, then about the z axis; angles in radians.
+    pub fn rotation_xyz(angles: Vec3) -> Self {
+        let angles = angles.as_dvec3();
+        let turn = DMat3::from_rotation_z(angles.z)
+            * DMat3::from_rotation_y(angles.y)
+            * DMat3::from_rotation_x(angles.x);
+        let inverse = turn.transpose();
+        Self {
+            to_world: DAffine3 { matrix3: turn, translation: DVec3::ZERO },
+            to_local: DAffine3 { matrix3: inverse, translation: DVec3::ZERO },
+            is_identity: turn == DMat3::IDENTITY,
+        }
+    }
+
+    /// The place of a camera at `position`: local `-z` points to `target` and local `+y` as near to `up` as can be.
+    ///
+    /// `None` when position and target are the same. An `up` along the line of sight gives way to another axis.
+    pub fn look_at(position: Vec3, target: Vec3, up: Vec3) -> Option<Self> {
+        let back = (position.as_dvec3() - target.as_dvec3()).try_normalize()?;
+        let right = perpendicular(up.as_dvec3(), back);
+        let matrix3 = DMat3::from_cols(right, back.cross(right), back);
+        Self::new(DAffine3 { matrix3, translation: position.as_dvec3() })
+    }
+
+    /// The place of a flat shape at `position`: its normal, local `+y`, points to `target` and local `-z` as near to
+    /// `up` as can be, so that `v` grows upwards.
+    ///
+    /// `None` when position and target are the same. An `up` along that line gives way to another axis.
+    pub fn face(position: Vec3, target: Vec3, up: Vec3) -> Option<Self> {
+        let normal = (target.as_dvec3() - position.as_dvec3()).try_normalize()?;
+        let right = perpendicular(up.as_dvec3(), normal);
+        let matrix3 = DMat3::from_cols(right, normal, right.cross(normal));
+        Self::new(DAffine3 { matrix3, translation: position.as_dvec3() })
+    }
+
+    /// This map, then `next`; `None` when together they leave the range of `f64`.
+    pub fn then(&self, next: &Self) -> Option<Self> {
+        Self::new(next.to_world * self.to_world)
+    }
+
+    /// The map between two, with matrices interpolated linearly: every point moves on a straight line.
+    ///
+    /// `weight` is that of `other`, in `[0, 1]`. `None` where the blend is flat, as halfway through half a turn.
+    pub fn lerp(&self, other: &Self, weight: f32) -> Option<Self> {
+        if weight == 0.0 || self.to_world == other.to_world {
+            return Some(*self);
+        }
+        let (a, b, weight) = (self.to_world, other.to_world, f64::from(weight));
+        let blend = |a: DVec3, b: DVec3| a * (1.0 - weight) + b * weight;
+        let (ma, mb) = (a.matrix3, b.matrix3);
+        let matrix3 = DMat3::from_cols(
+            blend(ma.x_axis, mb.x_axis),
+            blend(ma.y_axis, mb.y_axis),
+            blend(ma.z_axis, mb.z_axis),
+        );
+        Self::new(DAffine3 { matrix3, translation: blend(a.translation, b.translation) })
+    }
+
     /// The map from local to world space.
     pub fn matrix(&self) -> DAffine3 {
         self.to_world
@@ -92,6 +165,7 @@ impl Transform {
     }
 
     /// The ray in local space, `t` kept, for triangle meshes.
+    #[inline]
     pub fn ray_to_local(&self, ray: &Ray) -> Ray {
         if self.is_identity {
             return *ray;
@@ -101,6 +175,7 @@ impl Transform {
     }
 
     /// The ray in local space, `t` kept, for analytic shapes.
+    #[inline]
     pub fn local_ray(&self, ray: &Ray) -> LocalRay {
         if self.is_identity {
             return LocalRay::from(ray);
@@ -180,4 +255,9 @@ impl Transform {
             dpdv: self.vector(local.dpdv),
         }
     }
+}
+
+/// The unit vector along `up x axis`; any other across `axis` when `up` is along it.
+fn perpendicular(up: DVec3, axis: DVec3) -> DVec3 {
+    up.cross(axis).try_normalize().unwrap_or_else(|| axis.any_orthonormal_vector())
 }
