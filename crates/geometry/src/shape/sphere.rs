@@ -5,7 +5,7 @@ use super::{AreaSample, Geometry, LocalHit, Root};
 use crate::aabb::Aabb;
 use crate::error_bound::shape_point;
 use crate::ray::LocalRay;
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use std::f32::consts::FRAC_1_PI;
 use std::f64::consts::{PI, TAU};
 
@@ -19,13 +19,13 @@ pub struct Sphere {
 impl Sphere {
     /// The point with the outward unit normal `ng`, as [`Geometry::sample`] gives it.
     pub fn point(&self, ng: DVec3) -> AreaSample {
-        let u = ng.x.atan2(ng.z).rem_euclid(TAU) / TAU;
-        let v = ng.y.clamp(-1.0, 1.0).asin() / PI + 0.5;
+        let r = f64::from(self.radius);
+        let (radial, ring) = Radial::through(ng);
         AreaSample {
-            p: f64::from(self.radius) * ng,
-            p_err: gamma_f64(16) * f64::from(self.radius),
+            p: r * ng,
+            p_err: shape_point(r),
             ng,
-            uv: Vec2::new(u as f32, v as f32),
+            uv: Vec2::new(radial.u(), latitude(ring, ng.y)),
             pdf: 1.0 / self.area(),
         }
     }
@@ -77,22 +77,11 @@ impl Geometry for Sphere {
     }
 
     fn sample(&self, u: Vec2) -> Option<AreaSample> {
-        let area = self.area();
-        if area <= 0.0 {
-            return None;
-        }
         // Archimedes: equal steps of height cut equal areas.
         let height = f64::from(u.y);
         let ring = 2.0 * (height * (1.0 - height)).max(0.0).sqrt();
         let ng = Radial::at(u.x).point(ring, 2.0 * height - 1.0);
-        let r = f64::from(self.radius);
-        Some(AreaSample {
-            p: r * ng,
-            p_err: shape_point(r),
-            ng,
-            uv: Vec2::new(u.x, latitude(ring, ng.y)),
-            pdf: 1.0 / area,
-        })
+        (self.radius > 0.0).then(|| self.point(ng))
     }
 }
 
