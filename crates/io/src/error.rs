@@ -226,7 +226,7 @@ mod tests {
 
     #[test]
     fn a_span_outside_the_text_is_moved_to_fit() {
-        for span in [0..0, 1..3, 2..2, 90..99, 3..1] {
+        for span in [0..0, 1..3, 2..2, 3..90, 90..99] {
             let place = Place::in_file("ö\n".into(), span);
             let _ = &place.excerpt[place.span.clone()];
             assert!(place.line <= 2);

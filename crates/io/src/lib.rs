@@ -6,9 +6,11 @@ pub mod exr_file;
 pub mod file;
 pub mod image_file;
 pub mod nearest;
+pub mod obj;
 pub mod picture;
 pub mod png_file;
 pub mod save_error;
+pub mod texture_cache;
 pub mod view;
 
 pub use error::{LoadError, Warning};
