@@ -1,6 +1,5 @@
 //! Where a geometry stands over the shutter.
 
-use glam::{DAffine3, DMat3};
 use heliostat_geometry::{Aabb, Transform};
 use heliostat_scene::Motion;
 
@@ -24,7 +23,10 @@ impl<'s> Place<'s> {
     pub(crate) fn at<R>(&self, time: f32, look: impl FnOnce(&Transform) -> R) -> Option<R> {
         match self {
             Self::Still(transform) => Some(look(transform)),
-            Self::Moving(motion) => interpolate(motion, time).map(|transform| look(&transform)),
+            Self::Moving(motion) => {
+                let (before, after, weight) = motion.around(time);
+                before.lerp(after, weight).map(|transform| look(&transform))
+            }
         }
     }
 
@@ -39,17 +41,4 @@ impl<'s> Place<'s> {
             }
         }
     }
-}
-
-/// The transform of a moving thing: its matrices at the poses around `time`, interpolated linearly.
-fn interpolate(motion: &Motion, time: f32) -> Option<Transform> {
-    let (a, b, weight) = motion.around(time);
-    let (a, b, weight) = (a.matrix(), b.matrix(), f64::from(weight));
-    let mix = |a, b| a + weight * (b - a);
-    let columns = |m: DMat3| [m.x_axis, m.y_axis, m.z_axis];
-    let (from, to) = (columns(a.matrix3), columns(b.matrix3));
-    Transform::new(DAffine3 {
-        matrix3: DMat3::from_cols(mix(from[0], to[0]), mix(from[1], to[1]), mix(from[2], to[2])),
-        translation: mix(a.translation, b.translation),
-    })
 }

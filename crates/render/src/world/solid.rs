@@ -79,7 +79,7 @@ impl<'s> Solid<'s> {
     pub(crate) fn closest(&self, ray: &Ray, time: f32) -> Option<(f32, Meeting)> {
         self.place.at(time, |transform| match &self.body {
             Body::Shape(shape) => {
-                let root = shape.geometry().hit(&transform.local_ray(ray))?;
+                let root = shape.hit(&transform.local_ray(ray))?;
                 Some((root.t as f32, Meeting::Shape(root)))
             }
             Body::Mesh { mesh, tree } => {
@@ -107,7 +107,7 @@ impl<'s> Solid<'s> {
     #[inline]
     pub(crate) fn blocks(&self, ray: &Ray, time: f32) -> bool {
         let blocked = self.place.at(time, |transform| match &self.body {
-            Body::Shape(shape) => shape.geometry().hit(&transform.local_ray(ray)).is_some(),
+            Body::Shape(shape) => shape.hit(&transform.local_ray(ray)).is_some(),
             Body::Mesh { mesh, tree } => tree.any_hit(mesh, &transform.ray_to_local(ray)),
         });
         blocked == Some(true)
