@@ -4,6 +4,7 @@
 use crate::exit::Exit;
 use crate::out;
 use heliostat_io::error::{LoadError, Place, Report, Warning};
+use heliostat_io::SaveError;
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents,
     SourceCode, SourceSpan, SpanContents,
@@ -46,6 +47,12 @@ impl Failure {
 impl From<LoadError> for Failure {
     fn from(error: LoadError) -> Self {
         Self { exit: Exit::Input, line: error.to_string(), report: Some(error.report().clone()) }
+    }
+}
+
+impl From<SaveError> for Failure {
+    fn from(error: SaveError) -> Self {
+        Self::new(Exit::Output, error.to_string())
     }
 }
 

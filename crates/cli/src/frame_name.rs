@@ -49,6 +49,13 @@ impl FrameName {
         }
     }
 
+    /// The name for a frame that was stopped before its end: `name.0007.partial.exr`.
+    pub(crate) fn unfinished(&self, frame: i32) -> String {
+        let file = self.file(frame);
+        let (stem, ending) = file.split_at(file.rfind('.').unwrap_or(file.len()));
+        format!("{stem}.partial{ending}")
+    }
+
     /// The frame number in a file name of this form.
     pub(crate) fn frame_of(&self, file: &str) -> Option<i32> {
         let number = file.strip_prefix(&self.before)?.strip_suffix(&self.after)?;
@@ -128,6 +135,7 @@ mod tests {
         }
         assert_eq!(FrameName::parse("a.b.exr").numbered().file(7), "a.b.0007.exr");
         assert_eq!(FrameName::parse("a.##.exr").numbered().file(7), "a.07.exr");
+        assert_eq!(FrameName::parse("a.##.exr").unfinished(7), "a.07.partial.exr");
     }
 
     #[test]

@@ -56,6 +56,12 @@ impl Output {
     pub(crate) fn path(&self, frame: i32) -> PathBuf {
         self.folder.join(self.name.file(frame))
     }
+
+    /// Where a frame goes that a signal stopped: numbered ones are marked, so that nobody takes them for whole when
+    /// the run is taken up again.
+    pub(crate) fn unfinished(&self, frame: i32) -> PathBuf {
+        if self.name.is_numbered() { self.folder.join(self.name.unfinished(frame)) } else { self.path(frame) }
+    }
 }
 
 /// The outputs of a render: those that were given, or the name of the scene with `.png` in the current folder.

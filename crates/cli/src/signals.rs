@@ -4,10 +4,10 @@
 //! The `signal-hook` documentation, `flag::register_conditional_shutdown`: the shutdown is registered before the flag
 //! is, so that the first signal finds the flag down and the second one finds it up.
 
+use crate::diagnose::Failure;
 use crate::exit::Exit;
 use signal_hook::consts::signal::{SIGINT, SIGTERM};
 use signal_hook::flag;
-use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
@@ -20,7 +20,12 @@ pub(crate) struct Signals {
 
 impl Signals {
     /// Installs the handlers, for the rest of the process.
-    pub(crate) fn install() -> io::Result<Self> {
+    pub(crate) fn install() -> Result<Self, Failure> {
+        Self::register()
+            .map_err(|e| Failure::new(Exit::Failed, format!("signals cannot be caught: {e}; start it in another shell")))
+    }
+
+    fn register() -> std::io::Result<Self> {
         let signals = Self { stop: Arc::default(), number: Arc::default() };
         for signal in [SIGINT, SIGTERM] {
             flag::register_conditional_shutdown(signal, 128 + signal, Arc::clone(&signals.stop))?;

@@ -178,10 +178,8 @@ pub(crate) enum ExrDepth {
 /// Lossless compressions of EXR.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Compression {
-    /// As it is
+    /// None: large and fast
     None,
-    /// Run lengths: fast, weak
-    Rle,
     /// Deflate, line by line
     Zips,
     /// Deflate, 16 lines at once

@@ -20,6 +20,10 @@ pub(crate) struct ViewArgs {
     #[arg(short, long, value_name = "PNG")]
     pub(crate) output: Option<PathBuf>,
 
+    /// Show this layer or channel instead of the colours, as in `albedo` or `Z`
+    #[arg(long, value_name = "NAME")]
+    pub(crate) layer: Option<String>,
+
     /// View transform
     #[arg(long, value_enum, value_name = "NAME", default_value_t = ViewName::Standard)]
     pub(crate) view: ViewName,

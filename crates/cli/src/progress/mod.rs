@@ -7,6 +7,8 @@ mod bar;
 mod lines;
 mod text;
 
+pub(crate) use text::{bytes, clean};
+
 use crate::args::ProgressMode;
 use crate::{memory, out};
 use bar::Bar;
@@ -102,10 +104,10 @@ impl Progress {
         current.begun = Instant::now();
     }
 
-    /// A tile is done: so many camera rays, so many rays of any kind.
-    pub(crate) fn add(&self, samples: u64, rays: u64) {
-        self.done.fetch_add(samples, Ordering::Relaxed);
-        self.rays.fetch_add(rays, Ordering::Relaxed);
+    /// So many camera rays of the frame are done, and so many rays of any kind. Threads may tell this out of order.
+    pub(crate) fn reach(&self, samples: u64, rays: u64) {
+        self.done.fetch_max(samples, Ordering::Relaxed);
+        self.rays.fetch_max(rays, Ordering::Relaxed);
         // Whoever finds the lock taken has nothing newer to tell.
         let Ok(mut current) = self.current.try_lock() else { return };
         if current.told.elapsed() >= INTERVAL {

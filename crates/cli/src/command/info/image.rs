@@ -14,6 +14,9 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+/// The bytes that every OpenEXR file begins with.
+const EXR_MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
+
 /// Reads the image and measures its channels.
 pub(super) fn info(path: &Path) -> Result<Info, Failure> {
     let limits = Limits::default();
@@ -30,7 +33,7 @@ fn is_exr(path: &Path) -> Result<bool, Failure> {
     let mut first = [0; 4];
     let mut file = File::open(path).map_err(|e| LoadError::io(path, &e))?;
     // A file shorter than that is no EXR; its reader says what it is.
-    Ok(file.read_exact(&mut first).is_ok() && first == exr_file::MAGIC)
+    Ok(file.read_exact(&mut first).is_ok() && first == EXR_MAGIC)
 }
 
 fn of_frame(path: &Path, frame: &Frame) -> Value {
