@@ -3,8 +3,8 @@
 
 use crate::exit::Exit;
 use crate::out;
-use heliostat_io::error::{LoadError, Place, Report, Warning};
 use heliostat_io::SaveError;
+use heliostat_io::error::{LoadError, Place, Report, Warning};
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents,
     SourceCode, SourceSpan, SpanContents,

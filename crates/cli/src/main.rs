@@ -13,6 +13,7 @@ mod out;
 mod output;
 mod progress;
 mod signals;
+mod table;
 mod usage;
 
 use args::Cli;

@@ -21,8 +21,9 @@ pub(crate) struct Signals {
 impl Signals {
     /// Installs the handlers, for the rest of the process.
     pub(crate) fn install() -> Result<Self, Failure> {
-        Self::register()
-            .map_err(|e| Failure::new(Exit::Failed, format!("signals cannot be caught: {e}; start it in another shell")))
+        Self::register().map_err(|e| {
+            Failure::new(Exit::Failed, format!("signals cannot be caught: {e}; start it in another shell"))
+        })
     }
 
     fn register() -> std::io::Result<Self> {

@@ -13,10 +13,16 @@ use heliostat_io::{View, ViewTransform};
 pub(crate) fn run(args: &ViewArgs) -> Result<Exit, Failure> {
     let output = args.output.clone().unwrap_or_else(|| beside_cwd(&args.image, "png"));
     if !output.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) {
-        return Err(Failure::usage(format!("{}: a view is a PNG; write a name that ends in .png", output.display())));
+        return Err(Failure::usage(format!(
+            "{}: a view is a PNG; write a name that ends in .png",
+            output.display()
+        )));
     }
     if args.output.is_none() && output == args.image {
-        return Err(Failure::usage(format!("{}: would replace the image; write `-o OTHER.png`", output.display())));
+        return Err(Failure::usage(format!(
+            "{}: would replace the image; write `-o OTHER.png`",
+            output.display()
+        )));
     }
     check_writable(&output)?;
     let frame = read_frame(&args.image, &Limits::default())?;

@@ -98,7 +98,8 @@ fn temporary(output: &Path) -> io::Result<TempPath> {
 fn cannot_start(error: &io::Error) -> Failure {
     let line = match error.kind() {
         io::ErrorKind::NotFound => {
-            "ffmpeg was not found on the PATH; install it (https://ffmpeg.org, or the package `ffmpeg`)".to_owned()
+            "ffmpeg was not found on the PATH; install it (https://ffmpeg.org, or the package `ffmpeg`)"
+                .to_owned()
         }
         _ => format!("ffmpeg cannot be run: {error}; check its installation with `ffmpeg -version`"),
     };
