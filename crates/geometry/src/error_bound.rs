@@ -110,17 +110,35 @@ pub fn offset_origin(p: Vec3, p_err: Vec3, n: Vec3, dir: Vec3) -> Vec3 {
     Vec3::new(away(moved.x, offset.x), away(moved.y, offset.y), away(moved.z, offset.z))
 }
 
+/// Bound, in lengths, of how far beside its place the watertight triangle test sees a point of a triangle.
+///
+/// `reach` is the largest coordinate of a corner, seen from the ray's origin. Per corner: one rounding of the
+/// subtraction of the origin, on the corner across the ray and on the corner along it; two of the slope, one of its
+/// product, one of the last subtraction.
+pub fn sheared_corner(reach: f32) -> f32 {
+    gamma(6) * reach
+}
+
 /// Bound, in lengths, of how far beside the true ray the rounded one may seem to run where it is compared with planes
 /// and triangles. `reach` is the largest coordinate of the scene plus that of the ray's origin, by magnitude.
 ///
 /// All terms are relative to a distance along one axis, which is at most `reach`: the distance to a plane,
-/// `(plane - origin) * (1 / dir)`, has 3 roundings, its growth by this bound 2 more; the watertight triangle test sees
-/// its corners displaced by 6 (subtraction of the origin, shear); the reported distance of a hit is rounded once.
+/// `(plane - origin) * (1 / dir)`, has 3 roundings, its growth by this bound 2 more, and the distance of a hit is rounded
+/// once. The watertight triangle test sees its corners displaced by [`sheared_corner`], and reports a distance within as much
+/// of the place where it saw the hit.
 ///
 /// # Source
 /// Higham, "Accuracy and Stability of Numerical Algorithms", 2nd edition, section 3.1, applied to the terms above.
 pub fn cell_padding(reach: f32) -> f32 {
-    gamma(12) * reach + f32::MIN_POSITIVE
+    gamma(6) * reach + 2.0 * sheared_corner(reach) + f32::MIN_POSITIVE
+}
+
+/// Bound of the error, per axis, of a corner that comes from cutting a triangle in `f64` by up to six planes one after
+/// the other. `extent` is the largest magnitude of a coordinate.
+///
+/// Each cut adds four operations, on lengths of up to twice the extent.
+pub fn clipped_corner(extent: f32) -> f64 {
+    gamma_f64(24) * 2.0 * f64::from(extent)
 }
 
 /// The reciprocals of a direction, per axis.

@@ -11,7 +11,7 @@ use crate::bsp::visited::Visited;
 use crate::primitives::Primitives;
 use crate::query::{Found, Nearest, RayIndex};
 use glam::{Vec3, Vec3A};
-use heliostat_geometry::error_bound::cell_padding;
+use heliostat_geometry::error_bound::{cell_padding, grow_slab};
 use heliostat_geometry::{Aabb, Ray};
 use obvhs::bvh2::Bvh2;
 use obvhs::ray::RayHit;
@@ -63,17 +63,19 @@ impl ReferenceBvh {
         Ok(Self { bvh, ids: refs.iter().map(|r| r.primitive).collect(), unbounded })
     }
 
-    /// Hands candidates to `test` until it answers with a distance below that of the ray's start.
+    /// Hands candidates to `test`, which answers up to which distance hits still matter; minus infinity ends the visit.
     fn visit(&self, ray: &Ray, mut test: impl FnMut(u32) -> f32) {
+        // A unit direction, because the limits of the inverse there are absolute.
+        let length = ray.dir.as_dvec3().length();
+        let distance = |t: f32| grow_slab(0.0, ((f64::from(t) * length) as f32).next_up()).max;
         let query = obvhs::ray::Ray::new(
             Vec3A::from(ray.origin),
-            Vec3A::from(ray.dir),
-            ray.range.min,
-            // The comparison there is strict, ours is not.
-            ray.range.max.next_up(),
+            Vec3A::from((ray.dir.as_dvec3() / length).as_vec3()),
+            0.0,
+            distance(ray.range.max),
         );
         let id = |slot: usize| self.ids[self.bvh.primitive_indices[slot] as usize];
-        self.bvh.ray_traverse(query, &mut RayHit::none(), |_, slot| test(id(slot)));
+        self.bvh.ray_traverse(query, &mut RayHit::none(), |_, slot| distance(test(id(slot))));
     }
 }
 
@@ -89,7 +91,7 @@ impl RayIndex for ReferenceBvh {
         }
         self.visit(ray, |primitive| {
             nearest.test(primitive, &mut hit);
-            nearest.ray.range.max.next_up()
+            nearest.ray.range.max
         });
         nearest.found
     }

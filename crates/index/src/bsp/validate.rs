@@ -7,6 +7,7 @@ use super::{BspTree, Place};
 use crate::primitives::Primitives;
 use glam::Vec3;
 use heliostat_geometry::Aabb;
+use heliostat_geometry::error_bound::clipped_corner;
 use std::fmt;
 
 /// A promise that a tree breaks. Each message names the node or the primitive.
@@ -199,19 +200,24 @@ impl BspTree {
         Ok(())
     }
 
-    /// The part of a cell in which a primitive must be known to it.
+    /// The part of a cell in which a primitive must be known to it: all but a border as wide as the error of clipping.
     ///
     /// A primitive that only touches a plane may belong to the other side; one that lies flat in a plane belongs to the side
     /// below, which at the lower border of the root is the root's own.
     fn interior(&self, cell: Aabb, bounds: Aabb) -> Aabb {
+        let margin = clipped_corner(self.extent);
         let low = |axis: usize| {
             let is_flat = bounds.min[axis] == bounds.max[axis];
             let is_border = cell.min[axis] == self.bounds.min[axis];
-            if is_flat && is_border { cell.min[axis] } else { cell.min[axis].next_up() }
+            match (is_flat, is_border) {
+                (true, true) => cell.min[axis],
+                (true, false) => cell.min[axis].next_up(),
+                (false, _) => ((f64::from(cell.min[axis]) + margin) as f32).next_up(),
+            }
         };
         let high = |axis: usize| {
             let is_flat = bounds.min[axis] == bounds.max[axis];
-            if is_flat { cell.max[axis] } else { cell.max[axis].next_down() }
+            if is_flat { cell.max[axis] } else { ((f64::from(cell.max[axis]) - margin) as f32).next_down() }
         };
         Aabb { min: Vec3::new(low(0), low(1), low(2)), max: Vec3::new(high(0), high(1), high(2)) }
     }
