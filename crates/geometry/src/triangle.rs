@@ -10,6 +10,7 @@
 //! # Source
 //! Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
 
+use crate::error_bound::sheared_corner;
 use crate::ray::{Interval, Ray};
 use glam::{DVec3, Vec3};
 
@@ -138,20 +139,18 @@ fn intersect_along(
         return None;
     }
 
-    // Decide the rare doubtful cases with products that `f64` holds exactly.
-    let area = u + v + w;
-    let doubtful = u == 0.0 || v == 0.0 || w == 0.0 || !area.is_normal();
-    let barycentric = if doubtful { exact_weights([a, b, c])? } else { [u / area, v / area, w / area] };
+    // What is left is likely a hit: decide it with products that `f64` holds exactly.
+    let weights = exact_weights([a, b, c])?;
 
     // Find the distance to the plane, and see whether it counts.
-    let t = plane_distance(ray, corners, barycentric)? as f32;
+    let t = plane_distance(ray, corners, weights)? as f32;
+    let barycentric = weights.map(|weight| weight as f32);
     (range.contains(t) && t < f32::INFINITY).then_some(TriangleHit { t, barycentric })
 }
 
-/// The barycentric weights by edge functions whose products are exact; `None` when the point is outside.
-#[cold]
-#[inline(never)]
-fn exact_weights(projected: [[f32; 2]; 3]) -> Option<[f32; 3]> {
+/// The barycentric weights of the point (0, 0) by edge functions whose products are exact; `None` when it is outside.
+#[inline]
+fn exact_weights(projected: [[f32; 2]; 3]) -> Option<[f64; 3]> {
     let [a, b, c] = projected.map(|p| p.map(f64::from));
     let u = c[0] * b[1] - c[1] * b[0];
     let v = a[0] * c[1] - a[1] * c[0];
@@ -161,12 +160,12 @@ fn exact_weights(projected: [[f32; 2]; 3]) -> Option<[f32; 3]> {
     }
     let area = u + v + w;
     // A triangle seen edge on covers nothing; a NaN ends here too.
-    (area.abs() > 0.0).then(|| [(u / area) as f32, (v / area) as f32, (w / area) as f32])
+    (area.abs() > 0.0).then(|| [u / area, v / area, w / area])
 }
 
 /// The distance to the plane of a triangle that the line of the ray is known to meet; `None` behind the origin.
 #[inline]
-fn plane_distance(ray: &TriangleRay, corners: [Vec3; 3], weights: [f32; 3]) -> Option<f64> {
+fn plane_distance(ray: &TriangleRay, corners: [Vec3; 3], weights: [f64; 3]) -> Option<f64> {
     let (origin, dir) = (ray.ray.origin.as_dvec3(), ray.ray.dir.as_dvec3());
     let [a, b, c] = corners.map(|corner| corner.as_dvec3() - origin);
     let normal = (b - a).cross(c - a);
@@ -174,10 +173,10 @@ fn plane_distance(ray: &TriangleRay, corners: [Vec3; 3], weights: [f32; 3]) -> O
         return None;
     }
 
-    // No point of a triangle is nearer than its nearest corner or farther than its farthest, measured along the
-    // sheared axis. On a triangle seen almost edge on this holds the quotient below to where the triangle is.
+    // Where the test across the ray saw the hit, along the sheared axis: a place of the triangle itself.
     let inverse = 1.0 / ray.along.of(dir);
     let at = [a, b, c].map(|corner| ray.along.of(corner) * inverse);
+    let seen = weights[0] * at[0] + weights[1] * at[1] + weights[2] * at[2];
     let nearest = at[0].min(at[1]).min(at[2]);
     let farthest = at[0].max(at[1]).max(at[2]);
 
@@ -187,7 +186,12 @@ fn plane_distance(ray: &TriangleRay, corners: [Vec3; 3], weights: [f32; 3]) -> O
     let t = normal.dot(a) / facing;
     let is_ahead = nearest > 0.0;
     if facing == 0.0 {
-        return is_ahead.then(|| (0..3).map(|i| f64::from(weights[i]) * at[i]).sum());
+        return is_ahead.then_some(seen);
     }
-    (t > 0.0 || is_ahead).then(|| t.max(nearest).min(farthest))
+
+    // The plane of a triangle seen almost edge on may be met far from it: hold the quotient to the place where the
+    // triangle was seen, give or take the displacement of its corners, and to the triangle.
+    let reach = a.abs().max(b.abs()).max(c.abs()).max_element();
+    let slack = f64::from(sheared_corner(reach as f32)) * inverse.abs();
+    (t > 0.0 || is_ahead).then(|| t.max(seen - slack).min(seen + slack).max(nearest).min(farthest))
 }
