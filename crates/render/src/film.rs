@@ -20,13 +20,16 @@ pub(crate) const MISS_DEPTH: f32 = 1e10;
 pub struct Film {
     window: PixelRect,
     tiles: Vec<Tile>,
+    keep: Keep,
     /// Integrals of the positive and negative parts of the filter.
     masses: (f64, f64),
 }
 
-/// What a film keeps beside the beauty.
+/// What a film keeps beside one sum of colour.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Keep {
+    /// Sums of their own for samples that subtract.
+    pub(crate) lobes: bool,
     /// Sums of albedo.
     pub(crate) albedo: bool,
     /// The sample nearest to the centre of each pixel.
@@ -106,15 +109,14 @@ impl Shot {
 impl Film {
     /// An empty film over `window`.
     pub(crate) fn new(window: PixelRect, filter: &PixelFilter, keep: Keep) -> Self {
-        let has_lobes = filter.has_negative_lobes();
-        let tiles = tile_rects(window).map(|rect| Tile::new(rect, has_lobes, keep)).collect();
-        Self { window, tiles, masses: filter.masses() }
+        let tiles = tile_rects(window).map(|rect| Tile::new(rect, keep)).collect();
+        Self { window, tiles, keep, masses: filter.masses() }
     }
 
     /// Bytes that a film of `pixels` pixels takes, the tiles' own bookkeeping aside.
-    pub(crate) fn bytes(pixels: u64, filter: &PixelFilter, keep: Keep) -> u64 {
+    pub(crate) fn bytes(pixels: u64, keep: Keep) -> u64 {
         let stratum = size_of::<Sum>() + if keep.albedo { size_of::<[f64; 3]>() } else { 0 };
-        let strata = if filter.has_negative_lobes() { 2 } else { 1 };
+        let strata = if keep.lobes { 2 } else { 1 };
         let nearest = if keep.nearest { size_of::<Nearest>() } else { 0 };
         pixels * (strata * stratum + nearest) as u64
     }
@@ -128,6 +130,11 @@ impl Film {
     pub fn samples(&self) -> (u32, u32) {
         let samples = || self.tiles.iter().map(|tile| tile.samples);
         (samples().min().unwrap_or(0), samples().max().unwrap_or(0))
+    }
+
+    /// What it keeps beside one sum of colour.
+    pub(crate) fn kept(&self) -> Keep {
+        self.keep
     }
 
     pub(crate) fn tiles(&self) -> &[Tile] {
@@ -145,7 +152,7 @@ impl Film {
 }
 
 impl Tile {
-    fn new(rect: PixelRect, has_lobes: bool, keep: Keep) -> Self {
+    fn new(rect: PixelRect, keep: Keep) -> Self {
         let pixels = rect.width() as usize * rect.height() as usize;
         let stratum = || Stratum {
             sums: vec![Sum::default(); pixels],
@@ -156,7 +163,7 @@ impl Tile {
             next_sample: 0,
             samples: 0,
             positive: stratum(),
-            negative: if has_lobes { stratum() } else { Stratum::default() },
+            negative: if keep.lobes { stratum() } else { Stratum::default() },
             nearest: if keep.nearest { vec![Nearest::NONE; pixels] } else { Vec::new() },
         }
     }
@@ -269,9 +276,9 @@ mod tests {
     }
 
     fn film(filter: Filter, radius: f32) -> Film {
-        let keep = Keep { albedo: false, nearest: true };
-        let window = PixelRect { x0: 0, y0: 0, x1: 1, y1: 1 };
-        Film::new(window, &PixelFilter::new(filter, radius, 16), keep)
+        let filter = PixelFilter::new(filter, radius, 16);
+        let keep = Keep { lobes: filter.has_negative_lobes(), albedo: false, nearest: true };
+        Film::new(PixelRect { x0: 0, y0: 0, x1: 1, y1: 1 }, &filter, keep)
     }
 
     #[test]

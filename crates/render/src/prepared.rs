@@ -1,19 +1,14 @@
 //! A scene made ready to be rendered, pass by pass.
 
-use crate::camera_ray::CameraRays;
 use crate::check::check;
 use crate::error::RenderError;
-use crate::film::{Film, Keep};
-use crate::filter::PixelFilter;
-use crate::integrator::Integrator;
-use crate::layers::{self, Raster};
-use crate::meta::meta;
-use crate::post_dof;
+use crate::film::Film;
+use crate::integrator::{self, Integrator};
+use crate::plan::Plan;
 use crate::schedule::{self, Control, PassOutcome, Shooter};
 use crate::stats::{RenderStats, timed};
-use crate::world::World;
-use heliostat_scene::settings::PixelRect;
-use heliostat_scene::{Camera, Frame, RenderSettings, Scene};
+use crate::world::{TreeCache, World};
+use heliostat_scene::{Frame, RenderSettings, Scene};
 use std::ops::Range;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -21,13 +16,29 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 const STACK: usize = 4 << 20;
 const STACK_PER_DEPTH: usize = 16 << 10;
 
-/// A scene made ready: its index, its lights, its camera and its threads.
+/// A scene made ready: its indices, its lights, its camera and its threads.
 ///
+/// The loop over passes belongs to the caller, and with it previews, time limits and cancel:
+///
+/// ```
+/// # use heliostat_render::{Control, Prepared, RenderError};
+/// # use heliostat_scene::{RenderSettings, Scene};
+/// # use std::sync::atomic::AtomicBool;
+/// # fn preview(scene: &Scene, settings: &RenderSettings) -> Result<(), RenderError> {
+/// let prepared = Prepared::new(scene, settings)?;
+/// let mut film = prepared.film();
+/// let cancel = AtomicBool::new(false);
+/// let control = Control { cancel: &cancel, on_tile: &|tile| assert!(tile.done <= tile.total) };
+/// for sample in 0..settings.samples {
+///     prepared.pass(&mut film, sample..sample + 1, &control);
+///     let preview = prepared.frame(&film);
+///     assert_eq!(preview.width, settings.width);
+/// }
+/// # Ok(())
+/// # }
+/// ```
 pub struct Prepared<'s> {
-    settings: RenderSettings,
-    camera: &'s Camera,
-    rays: CameraRays,
-    filter: PixelFilter,
+    plan: Plan<'s>,
     world: World<'s>,
     integrator: Box<dyn Integrator + 's>,
     pool: rayon::ThreadPool,
@@ -36,65 +47,100 @@ pub struct Prepared<'s> {
 
 impl std::fmt::Debug for Prepared<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Prepared").field("settings", &self.settings).finish_non_exhaustive()
+        f.debug_struct("Prepared").field("settings", &self.plan.settings).finish_non_exhaustive()
     }
 }
 
 impl<'s> Prepared<'s> {
+    /// Makes `scene` ready to be rendered with the integrator that the settings name.
+    ///
+    /// # Errors
+    /// When a setting or the camera is out of its range, film and frame do not fit into memory, or the scene cannot be
+    /// made ready (see [`crate::WorldError`]).
+    pub fn new(scene: &'s Scene, settings: &RenderSettings) -> Result<Self, RenderError> {
+        Self::with_cache(scene, settings, &mut TreeCache::default())
+    }
+
+    /// As [`Prepared::new`], with the trees of meshes that `cache` knows: frames of an animation share them.
+    ///
+    /// # Errors
+    /// As [`Prepared::new`].
+    pub fn with_cache(
+        scene: &'s Scene,
+        settings: &RenderSettings,
+        cache: &mut TreeCache,
+    ) -> Result<Self, RenderError> {
+        Self::build(scene, settings, integrator::create(settings), cache)
+    }
+
     /// Makes `scene` ready to be rendered with an integrator of the caller.
     ///
     /// # Errors
-    /// When a setting or the camera is out of its range, the film does not fit into memory, or the scene refers to something that
-    /// it does not have.
+    /// As [`Prepared::new`].
     pub fn with_integrator(
         scene: &'s Scene,
         settings: &RenderSettings,
         integrator: Box<dyn Integrator + 's>,
     ) -> Result<Self, RenderError> {
+        Self::build(scene, settings, integrator, &mut TreeCache::default())
+    }
+
+    fn build(
+        scene: &'s Scene,
+        settings: &RenderSettings,
+        integrator: Box<dyn Integrator + 's>,
+        cache: &mut TreeCache,
+    ) -> Result<Self, RenderError> {
         let camera = check(scene, settings)?;
-        let rays = CameraRays::new(camera, settings.width, settings.height);
-        let filter = PixelFilter::new(settings.filter, settings.filter_radius, settings.samples);
+        let plan = Plan::new(camera, settings);
+        plan.reserve()?;
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(settings.threads)
             .stack_size(STACK + STACK_PER_DEPTH * settings.max_depth as usize)
             .thread_name(|i| format!("heliostat-{i}"))
             .build()?;
-        let (world, seconds) = timed(|| pool.install(|| World::new(scene, settings)));
+        let (world, seconds) = timed(|| pool.install(|| World::with_cache(scene, settings, cache)));
         let world = world?;
-        let mut stats = RenderStats::default();
-        stats.seconds.prepare = seconds;
-        let settings = settings.clone();
-        let stats = Mutex::new(stats);
-        let prepared = Self { settings, camera, rays, filter, world, integrator, pool, stats };
-        prepared.reserve()?;
-        Ok(prepared)
+        let stats = Mutex::new(RenderStats::prepared(&world, seconds));
+        Ok(Self { plan, world, integrator, pool, stats })
     }
 
     /// An empty film for this picture.
     pub fn film(&self) -> Film {
-        Film::new(self.film_window(), &self.filter, self.keep())
+        self.plan.film()
     }
 
     /// Adds the samples of the range to every pixel that does not hold them yet.
     ///
-    /// Samples go in rising order: of a range that lies before what a tile holds, nothing is added. Ranges in a row give
-    /// the same bits as one range over all of them.
+    /// Samples go in rising order: what lies before the last sample that a tile holds is not added to it. Ranges in
+    /// a row give the same bits as one range over all of them.
+    ///
+    /// # Panics
+    /// When the film was made for a picture with other pixels or layers.
     pub fn pass(&self, film: &mut Film, samples: Range<u32>, control: &Control<'_>) -> PassOutcome {
+        self.plan.assert_fits(film);
         let shooter = Shooter {
             world: &self.world,
             integrator: &*self.integrator,
-            camera: &self.rays,
-            filter: &self.filter,
-            seed: self.settings.seed,
+            camera: &self.plan.rays,
+            filter: &self.plan.filter,
+            seed: self.plan.settings.seed,
         };
-        let ((outcome, tally), seconds) =
-            timed(|| self.pool.install(|| schedule::run(&shooter, film, &samples, control)));
-        let mut stats = self.lock_stats();
-        stats.rays += tally.rays;
-        stats.samples += tally.samples;
-        stats.non_finite_samples += tally.non_finite;
-        stats.seconds.trace += seconds;
+        let run = || schedule::run(&shooter, film, &samples, control);
+        let ((outcome, tally), seconds) = timed(|| self.pool.install(run));
+        self.lock_stats().add(&tally, seconds);
         outcome
+    }
+
+    /// The picture that the film holds now; good at any time, before, between and after passes.
+    ///
+    /// # Panics
+    /// When the film was made for a picture with other pixels or layers.
+    pub fn frame(&self, film: &Film) -> Frame {
+        self.plan.assert_fits(film);
+        let (frame, seconds) = timed(|| self.pool.install(|| self.plan.resolve(film)));
+        self.lock_stats().seconds.resolve += seconds;
+        frame
     }
 
     /// What the work took so far.
@@ -102,72 +148,9 @@ impl<'s> Prepared<'s> {
         self.lock_stats().clone()
     }
 
-    /// The picture that the film holds now; good at any time, before, between and after passes.
-    pub fn frame(&self, film: &Film) -> Frame {
-        let (frame, seconds) = timed(|| self.pool.install(|| self.resolve(film)));
-        self.lock_stats().seconds.resolve += seconds;
-        frame
-    }
-
     /// The scene made ready.
     pub fn world(&self) -> &World<'s> {
         &self.world
-    }
-
-    fn resolve(&self, film: &Film) -> Frame {
-        let window = self.settings.pixels();
-        let masses = film.masses();
-        let mut rgba = Raster::of_film(film, [0.0; 4], |tile, i| tile.rgba(i, masses));
-        if let Some(focus) = self.rays.post_focus() {
-            let depth = Raster::of_film(film, 0.0, |tile, i| tile.nearest(i).depth);
-            rgba = post_dof::blur(&rgba, &depth, &self.rays, focus, self.settings.height);
-        }
-        let mut channels: Vec<_> = layers::beauty(&rgba.crop(window)).collect();
-        channels.extend(layers::extra(film, window, &self.settings.layers));
-        Frame {
-            width: self.settings.width,
-            height: self.settings.height,
-            window,
-            channels,
-            meta: meta(&self.settings, self.camera, &self.rays, film),
-        }
-    }
-
-    /// The pixels of the frame, and around them those that a blur after rendering looks at.
-    fn film_window(&self) -> PixelRect {
-        let window = self.settings.pixels();
-        if self.rays.post_focus().is_none() {
-            return window;
-        }
-        let margin = post_dof::margin(self.settings.height);
-        PixelRect {
-            x0: window.x0.saturating_sub(margin),
-            y0: window.y0.saturating_sub(margin),
-            x1: window.x1.saturating_add(margin).min(self.settings.width),
-            y1: window.y1.saturating_add(margin).min(self.settings.height),
-        }
-    }
-
-    fn keep(&self) -> Keep {
-        let layers = &self.settings.layers;
-        Keep {
-            albedo: layers.albedo,
-            nearest: layers::keeps_nearest(layers) || self.rays.post_focus().is_some(),
-        }
-    }
-
-    /// Asks the system once for all that film and frame will take, and gives it back.
-    ///
-    /// Later they are taken in many small pieces, of which none would be refused before the last.
-    fn reserve(&self) -> Result<(), RenderError> {
-        let window = self.film_window();
-        let pixels = u64::from(window.width()) * u64::from(window.height());
-        let channels = layers::channel_count(&self.settings.layers) as u64;
-        let frame = pixels * (channels * size_of::<f32>() as u64 + size_of::<[f32; 4]>() as u64);
-        let bytes = Film::bytes(pixels, &self.filter, self.keep()) + frame;
-        let out_of_memory = || RenderError::OutOfMemory { bytes };
-        let size = usize::try_from(bytes).map_err(|_| out_of_memory())?;
-        Vec::<u8>::new().try_reserve_exact(size).map_err(|_| out_of_memory())
     }
 
     /// The statistics, even if a thread died while it held them: they are only counts.

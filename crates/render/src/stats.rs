@@ -1,7 +1,10 @@
 //! What a render took: rays, samples, seconds, indices. The only place of the crate that reads the clock.
 
 use crate::counters::RayCounters;
+use crate::schedule::Tally;
+use crate::world::World;
 use heliostat_index::TreeStats;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// What a render took so far.
@@ -33,7 +36,7 @@ pub struct PhaseSeconds {
 /// An index and what it is over.
 #[derive(Clone, Debug)]
 pub struct IndexStats {
-    /// `scene` for the index over the objects, else which mesh.
+    /// `scene` for the index over the objects, `mesh` and its index for one over triangles.
     pub name: String,
     /// Its numbers.
     pub tree: TreeStats,
@@ -61,6 +64,20 @@ pub struct IndexTotals {
 }
 
 impl RenderStats {
+    /// Before the first pass.
+    pub(crate) fn prepared(world: &World<'_>, seconds: f64) -> Self {
+        let seconds = PhaseSeconds { prepare: seconds, ..PhaseSeconds::default() };
+        Self { seconds, indices: index_stats(world), ..Self::default() }
+    }
+
+    /// Adds a pass.
+    pub(crate) fn add(&mut self, tally: &Tally, seconds: f64) {
+        self.rays += tally.rays;
+        self.samples += tally.samples;
+        self.non_finite_samples += tally.non_finite;
+        self.seconds.trace += seconds;
+    }
+
     /// Sums over all indices.
     pub fn index_totals(&self) -> IndexTotals {
         let start = IndexTotals { trees: self.indices.len(), ..IndexTotals::default() };
@@ -80,6 +97,17 @@ impl RenderStats {
     pub fn rays_per_second(&self) -> f64 {
         if self.seconds.trace > 0.0 { self.rays.total() as f64 / self.seconds.trace } else { 0.0 }
     }
+}
+
+/// Every tree of a world once, the one over the objects first.
+fn index_stats(world: &World<'_>) -> Vec<IndexStats> {
+    let objects = world.object_tree().map(|tree| IndexStats { name: "scene".to_owned(), tree: tree.stats() });
+    let trees = world.mesh_trees();
+    let is_first = |i: usize| !trees[..i].iter().any(|other| Arc::ptr_eq(other, &trees[i]));
+    let meshes = (0..trees.len())
+        .filter(|&i| is_first(i))
+        .map(|i| IndexStats { name: format!("mesh {i}"), tree: trees[i].tree().stats() });
+    objects.into_iter().chain(meshes).collect()
 }
 
 /// The result of `work` and the seconds it took.
