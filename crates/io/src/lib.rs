@@ -5,6 +5,7 @@ pub mod error;
 pub mod exr_file;
 pub mod file;
 pub mod image_file;
+pub mod model;
 pub mod nearest;
 pub mod obj;
 pub mod picture;

@@ -1,0 +1,101 @@
+//! A model alone as a scene: a camera that fits it and neutral light.
+//!
+//! What a file does not say is chosen here, from the geometry and the materials alone and in proportion to the size: the
+//! same model in millimetres gives the same picture.
+
+mod enclosure;
+mod fit;
+mod rig;
+
+use crate::error::{LoadError, Warning};
+use crate::obj::{ObjModel, ObjOptions, Placement, load_obj};
+use crate::texture_cache::TextureCache;
+use enclosure::open_side;
+use fit::{View, fit};
+use glam::{DVec3, Vec3};
+use heliostat_geometry::{Aabb, TriMesh};
+use heliostat_scene::camera::Projection;
+use heliostat_scene::object::Geometry;
+use heliostat_scene::{Camera, Material, Motion, Object, Scene};
+use std::path::Path;
+use std::sync::Arc;
+
+/// How a model becomes a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ModelOptions {
+    /// How to read the file.
+    pub obj: ObjOptions,
+    /// Width over height of the picture that the camera is to fit.
+    pub aspect: f32,
+}
+
+impl Default for ModelOptions {
+    fn default() -> Self {
+        Self { obj: ObjOptions::default(), aspect: 16.0 / 9.0 }
+    }
+}
+
+/// Reads a model and makes a scene of it; objects without a name get that of the file.
+///
+/// # Errors
+/// Those of [`load_obj`].
+pub fn scene_from_obj(
+    path: &Path,
+    options: &ModelOptions,
+    textures: &mut TextureCache,
+) -> Result<(Scene, Vec<Warning>), LoadError> {
+    let mut model = load_obj(path, &options.obj, textures)?;
+    let warnings = std::mem::take(&mut model.warnings);
+    let name = path.file_stem().map_or_else(|| "model".into(), |stem| stem.to_string_lossy().into_owned());
+    Ok((scene_of(&model, &name, options.aspect), warnings))
+}
+
+/// The model with a camera and lights; `name` is for objects that have none.
+pub fn scene_of(model: &ObjModel, name: &str, aspect: f32) -> Scene {
+    let mut scene = Scene::default();
+    model.append_to(&mut scene, &Placement::identity());
+    for object in scene.objects.iter_mut().filter(|object| object.name.is_empty()) {
+        object.name = name.to_owned();
+    }
+    let meshes = scene.meshes.clone();
+    let bounds = meshes.iter().fold(Aabb::EMPTY, |all, mesh| all.union(mesh.bounds()));
+    let inside = open_side(&meshes, bounds);
+    let view = inside.map_or_else(|| View::from_outside(&meshes, bounds), View::into);
+    let points = meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| p.as_dvec3());
+    scene.cameras.push(Camera {
+        name: "fitted".to_owned(),
+        motion: Motion::still(fit(points, &view, f64::from(aspect))),
+        projection: Projection::Perspective { fov_y: view.fov_y as f32 },
+        focus: None,
+    });
+    rig::light(&mut scene, bounds, &view, inside.is_some());
+    scene
+}
+
+/// Sum over all triangles of twice their area times their normal.
+fn mean_normal(meshes: &[Arc<TriMesh>]) -> DVec3 {
+    meshes.iter().flat_map(|mesh| doubled_areas(mesh)).map(|(_, normal)| normal).sum()
+}
+
+/// Corners of each triangle, and twice its area times its normal.
+fn doubled_areas(mesh: &TriMesh) -> impl Iterator<Item = ([Vec3; 3], DVec3)> {
+    (0..mesh.triangles.len() as u32).map(|i| {
+        let corners = mesh.corners(i);
+        let [a, b, c] = corners.map(|p| p.as_dvec3());
+        (corners, (b - a).cross(c - a))
+    })
+}
+
+/// The triangles of an object with their materials: the same as [`doubled_areas`] beside the material.
+fn shaded_areas<'s>(scene: &'s Scene, object: &'s Object) -> impl Iterator<Item = (&'s Material, DVec3)> {
+    let mesh = match object.geometry {
+        Geometry::Mesh(id) => scene.meshes.get(id.index()),
+        Geometry::Shape(_) => None,
+    };
+    mesh.into_iter().flat_map(move |mesh| {
+        (0..).zip(doubled_areas(mesh)).map(move |(i, (_, area))| {
+            let material = object.material(mesh.slot(i));
+            (&scene.materials[material.index()], area)
+        })
+    })
+}

@@ -1,0 +1,91 @@
+//! Light for a model that brings none, and a little help for one that does.
+
+use super::fit::View;
+use super::shaded_areas;
+use glam::{DAffine3, DVec3, Quat, Vec2, Vec3};
+use heliostat_geometry::shape::Rectangle;
+use heliostat_geometry::{Aabb, Shape, Transform};
+use heliostat_scene::color::luminance;
+use heliostat_scene::light::{Falloff, LightKind};
+use heliostat_scene::material::Surface;
+use heliostat_scene::object::Geometry;
+use heliostat_scene::scene::Background;
+use heliostat_scene::{Light, Rgb, Scene};
+use std::f32::consts::PI;
+
+/// The model lights itself when its emitters give its box this irradiance on the mean.
+const ENOUGH: f32 = 0.05;
+
+/// Sets lights and background of a scene that holds a model in `bounds`. `is_inside` tells that the camera looks into a box.
+pub(super) fn light(scene: &mut Scene, bounds: Aabb, view: &View, is_inside: bool) {
+    let own = own_irradiance(scene, bounds);
+    if luminance(own) >= ENOUGH {
+        // What walls of a third reflectance throw at each other: r / (1 - r) of the first light, taken as even.
+        // Cohen et al., "A Progressive Refinement Approach to Fast Radiosity Image Generation", 1988, section 4.
+        scene.lights = vec![ambient(0.5 * own)];
+        scene.background = if is_inside { Background::default() } else { backdrop(0.1) };
+    } else if is_inside {
+        scene.lights = vec![ambient(Rgb::splat(0.2)), ceiling(bounds)];
+    } else {
+        let from = |x: f64, y: f64, z: f64| (view.axes() * DVec3::new(x, y, z)).as_vec3();
+        scene.lights = vec![
+            ambient(Rgb::splat(0.2)),
+            distant("key", 0.75, from(-0.6, 0.9, 0.8)),
+            distant("fill", 0.15, from(1.0, 0.1, 0.6)),
+        ];
+        scene.background = backdrop(1.0);
+    }
+}
+
+/// Irradiance that the emitters of the model would give the inside of its box if they lit it evenly.
+fn own_irradiance(scene: &Scene, bounds: Aabb) -> Rgb {
+    let shining = |surface: &Surface| {
+        let Surface::Phong(phong) = surface;
+        phong.emission.factor
+    };
+    let mut flux = Rgb::ZERO;
+    for object in &scene.objects {
+        for (material, doubled_area) in shaded_areas(scene, object) {
+            let emission = shining(&material.surface);
+            if emission != Rgb::ZERO {
+                flux += PI * emission * (0.5 * doubled_area.length()) as f32;
+            }
+        }
+    }
+    let area = bounds.surface_area() as f32;
+    if area > 0.0 { flux / area } else { Rgb::ZERO }
+}
+
+fn ambient(intensity: Rgb) -> Light {
+    Light { name: "ambient".to_owned(), intensity, samples: 1, kind: LightKind::Ambient }
+}
+
+/// Light from `from`, infinitely far, with a soft edge to its shadows.
+fn distant(name: &str, intensity: f32, from: Vec3) -> Light {
+    let kind = LightKind::Directional { direction: -from.normalize(), angle: 3_f32.to_radians() };
+    Light { name: name.to_owned(), intensity: Rgb::splat(intensity), samples: 1, kind }
+}
+
+/// A panel under the ceiling, invisible itself, that gives the middle of the floor an irradiance near 1.
+fn ceiling(bounds: Aabb) -> Light {
+    let size = bounds.size();
+    let panel = 0.3 * Vec2::new(size.x, size.z);
+    let at = bounds.centre().with_y(bounds.max.y - 0.03 * size.y);
+    let facing_down =
+        DAffine3::from_rotation_translation(Quat::from_rotation_x(PI).as_dquat(), at.as_dvec3());
+    let kind = LightKind::Area {
+        geometry: Geometry::Shape(Shape::Rectangle(Rectangle { size: panel })),
+        transform: Transform::new(facing_down).unwrap_or_default(),
+        two_sided: false,
+        visible: false,
+        falloff: Falloff::InverseSquare,
+    };
+    let intensity = Rgb::splat(size.y * size.y / (panel.x * panel.y));
+    Light { name: "ceiling".to_owned(), intensity, samples: 4, kind }
+}
+
+/// Neutral grey, lightest at the horizon.
+fn backdrop(strength: f32) -> Background {
+    let grey = |value: f32| Rgb::splat(strength * value);
+    Background::Gradient { top: grey(0.12), horizon: grey(0.32), bottom: grey(0.12) }
+}
