@@ -1,6 +1,7 @@
 //! Files in and out: scene files, OBJ with MTL, textures, PNG and OpenEXR.
 
 pub mod atomic;
+pub mod compare;
 pub mod error;
 pub mod exr_file;
 pub mod file;
