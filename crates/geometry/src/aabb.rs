@@ -135,9 +135,9 @@ impl Aabb {
                 }
                 continue;
             }
-            let a = (self.min[axis] - origin) / dir;
-            let b = (self.max[axis] - origin) / dir;
-            let (near, far) = if a <= b { (a, b) } else { (b, a) };
+            // The near plane is on the side the ray comes from; on an empty box it lies beyond the far one.
+            let (near, far) = if dir > 0.0 { (self.min, self.max) } else { (self.max, self.min) };
+            let (near, far) = ((near[axis] - origin) / dir, (far[axis] - origin) / dir);
             range = range.intersect(crate::error_bound::grow_slab(near, far));
             if range.is_empty() {
                 return None;

@@ -47,8 +47,12 @@ pub fn shape_point(extent: f64) -> f64 {
 ///
 /// A NaN from `0 / 0` cannot occur: the caller treats a zero direction by itself.
 pub fn grow_slab(near: f32, far: f32) -> Interval {
+    // Factors rather than sums, so that infinite distances stay infinite.
     let slack = 2.0 * gamma(3);
-    Interval { min: near - slack * near.abs(), max: far + slack * far.abs() }
+    let (shorter, longer) = (1.0 - slack, 1.0 + slack);
+    let min = near * if near > 0.0 { shorter } else { longer };
+    let max = far * if far > 0.0 { longer } else { shorter };
+    Interval { min, max }
 }
 
 /// Bound of the rounding of `p`, a point computed in `f64` and rounded once, that a ray will see again in the
