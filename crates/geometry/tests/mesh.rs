@@ -213,3 +213,28 @@ fn a_pose_of_a_mesh_hit_keeps_the_identity_exact() {
     let world = Transform::IDENTITY.hit_to_world(&mesh.surface(0, &hit));
     assert_eq!(world.at.p, Vec3::new(2.0, 0.5, 0.0));
 }
+
+/// A vertex shared by a whole mesh costs no more than many small ones.
+#[test]
+fn made_normals_of_a_large_fan_are_those_of_a_small_one() {
+    let cone = |sides: u32| {
+        let mut positions = vec![Vec3::new(0.0, 1.0, 0.0)];
+        let angle = |k: u32| std::f32::consts::TAU * k as f32 / sides as f32;
+        positions.extend((0..sides).map(|k| Vec3::new(angle(k).sin(), 0.0, angle(k).cos())));
+        let triangles = (0..sides).map(|k| [0, 1 + k, 1 + (k + 1) % sides]).collect();
+        let mut mesh = TriMesh { positions, triangles, ..TriMesh::default() };
+        mesh.compute_normals(0.6);
+        mesh
+    };
+    let (small, large) = (cone(1000), cone(200_000));
+    // The same place on the cone: the apex corner and the rim of the first triangle.
+    for corner in 0..2 {
+        let normal = |mesh: &TriMesh| mesh.normals[mesh.triangles[0][corner] as usize];
+        assert!(normal(&small).dot(normal(&large)) > 0.99, "{} {}", normal(&small), normal(&large));
+    }
+    // All triangles on one spot have no area and no order.
+    let mut spot =
+        TriMesh { positions: vec![Vec3::ONE; 3], triangles: vec![[0, 1, 2]; 300_000], ..TriMesh::default() };
+    spot.compute_normals(0.6);
+    spot.validate().unwrap();
+}

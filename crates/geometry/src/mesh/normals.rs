@@ -4,8 +4,50 @@ use super::TriMesh;
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 
-/// For the first vertex at each position, the triangles around it with their angles there.
-type Fans = HashMap<u32, Vec<(u32, f64)>>;
+/// Fans with more triangles than this are thinned out, or a vertex shared by a whole mesh would cost its square.
+const LARGE_FAN: usize = 1024;
+
+/// The triangles around a position.
+#[derive(Default)]
+struct Fan {
+    /// Unit normals, and normals weighted by area and angle.
+    members: Vec<(DVec3, DVec3)>,
+    /// Sum of the weighted normals.
+    total: DVec3,
+}
+
+impl Fan {
+    /// Merges members of almost the same direction in a large fan.
+    fn thin_out(&mut self) {
+        if self.members.len() <= LARGE_FAN {
+            return;
+        }
+        // A lattice on the sphere with steps of about 7 degrees.
+        let cell = |unit: DVec3| (8.0 * unit).round().to_array().map(|x| x as i8);
+        let mut index = HashMap::new();
+        let mut merged: Vec<(DVec3, DVec3)> = Vec::new();
+        for (unit, weighted) in std::mem::take(&mut self.members) {
+            let i = *index.entry(cell(unit)).or_insert(merged.len());
+            match merged.get_mut(i) {
+                Some((_, sum)) => *sum += weighted,
+                None => merged.push((unit, weighted)),
+            }
+        }
+        self.members =
+            merged.into_iter().map(|(unit, sum)| (sum.try_normalize().unwrap_or(unit), sum)).collect();
+    }
+
+    /// The normal at this position of the triangle with unit normal `own`, zero when it has no area.
+    fn normal(&self, own: DVec3, cos_max: f64) -> Vec3 {
+        let sum = if own == DVec3::ZERO {
+            self.total
+        } else {
+            let shallow = self.members.iter().filter(|(unit, _)| own.dot(*unit) >= cos_max);
+            shallow.map(|(_, weighted)| *weighted).sum()
+        };
+        sum.try_normalize().unwrap_or(own).as_vec3()
+    }
+}
 
 impl TriMesh {
     /// Makes shading normals: smooth between triangles whose normals differ by at most `max_angle` radians around
@@ -16,50 +58,46 @@ impl TriMesh {
     /// into triangles bend the normal. Old normals are dropped. Triangles without area take part in nothing and
     /// receive the mean of their neighbours.
     pub fn compute_normals(&mut self, max_angle: f32) {
-        let faces: Vec<DVec3> = (0..self.triangles.len() as u32).map(|i| self.winding_normal(i)).collect();
-        let units: Vec<DVec3> = faces.iter().map(|n| n.normalize_or_zero()).collect();
         let cos_max = f64::from(max_angle).cos();
-        let (first, around) = self.corners_by_position();
-
-        // The normal of every corner: the mean of the triangles around its position that are not too steep.
-        let mut corner_normals = Vec::with_capacity(3 * self.triangles.len());
-        for (triangle, corners) in self.triangles.iter().enumerate() {
-            let own = units[triangle];
-            for &vertex in corners {
-                let sum: DVec3 = around[&first[vertex as usize]]
-                    .iter()
-                    .filter(|&&(other, _)| {
-                        own == DVec3::ZERO
-                            || other as usize == triangle
-                            || own.dot(units[other as usize]) >= cos_max
-                    })
-                    .map(|&(other, angle)| angle * faces[other as usize])
-                    .sum();
-                corner_normals.push(sum.try_normalize().unwrap_or(own).as_vec3());
-            }
-        }
+        let units: Vec<DVec3> =
+            (0..self.triangles.len() as u32).map(|i| self.winding_normal(i).normalize_or_zero()).collect();
+        let (place, fans) = self.fans(&units);
+        let corner_normals: Vec<Vec3> = self
+            .triangles
+            .iter()
+            .zip(&units)
+            .flat_map(|(corners, own)| corners.map(|v| fans[place[v as usize]].normal(*own, cos_max)))
+            .collect();
         self.split_vertices(&corner_normals);
     }
 
-    /// For each vertex the first one at its position, and for each such first vertex its triangles with their
-    /// angles there.
-    fn corners_by_position(&self) -> (Vec<u32>, Fans) {
-        let mut at: HashMap<[u32; 3], u32> = HashMap::with_capacity(self.positions.len());
-        let first: Vec<u32> = (0u32..)
-            .zip(&self.positions)
+    /// For each vertex the number of its position, and for each position its fan.
+    fn fans(&self, units: &[DVec3]) -> (Vec<usize>, Vec<Fan>) {
+        let mut numbers: HashMap<[u32; 3], usize> = HashMap::with_capacity(self.positions.len());
+        let mut place = Vec::with_capacity(self.positions.len());
+        for p in &self.positions {
             // Adding 0 makes -0 and 0 the same key.
-            .map(|(i, p)| *at.entry((*p + Vec3::ZERO).to_array().map(f32::to_bits)).or_insert(i))
-            .collect();
-        let mut around: HashMap<u32, Vec<(u32, f64)>> = HashMap::with_capacity(at.len());
-        for (triangle, corners) in (0u32..).zip(&self.triangles) {
+            let key = (*p + Vec3::ZERO).to_array().map(f32::to_bits);
+            let next = numbers.len();
+            place.push(*numbers.entry(key).or_insert(next));
+        }
+        let mut fans: Vec<Fan> = std::iter::repeat_with(Fan::default).take(numbers.len()).collect();
+        for ((triangle, corners), unit) in (0..).zip(&self.triangles).zip(units) {
+            if *unit == DVec3::ZERO {
+                continue;
+            }
+            let face = self.winding_normal(triangle);
             let p = self.corners(triangle).map(|p| p.as_dvec3());
             for k in 0..3 {
                 let (to_next, to_last) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
-                let angle = to_next.cross(to_last).length().atan2(to_next.dot(to_last));
-                around.entry(first[corners[k] as usize]).or_default().push((triangle, angle));
+                let angle = face.length().atan2(to_next.dot(to_last));
+                let fan = &mut fans[place[corners[k] as usize]];
+                fan.members.push((*unit, angle * face));
+                fan.total += angle * face;
             }
         }
-        (first, around)
+        fans.iter_mut().for_each(Fan::thin_out);
+        (place, fans)
     }
 
     /// Gives each corner the normal wished for, with a copy of its vertex for every further normal.
