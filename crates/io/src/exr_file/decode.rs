@@ -1,9 +1,9 @@
 //! The pixels of an OpenEXR file as the channels of a frame.
 //!
-//! Scan lines and tiles (the full resolution of mip maps), one part or several. Channels of later parts keep their
-//! names where these are free, else `part.` goes before. The window of the frame is what all parts together cover of
-//! the display window; pixels that a part does not have are 0, pixels outside the display window (overscan) are left
-//! out. Integer samples become floats, exact up to 2^24.
+//! Scan lines and tiles (the full resolution of mip maps), one part or several. Channels of parts for another view
+//! (eye) than the first are named `view.channel`, as in files of one part; where a name is taken, `part.` goes before.
+//! The window of the frame is what all parts together cover of the display window; pixels that a part does not have are
+//! 0, pixels outside the display window (overscan) are left out. Integer samples become floats, exact up to 2^24.
 
 use super::header;
 use super::layout::{self, PartLayout, SampleKind, Window};
@@ -62,8 +62,13 @@ fn plan(parts: &[PartLayout], wanted: &dyn Fn(&str) -> bool) -> Result<Vec<Vec<P
     for part in parts {
         let mut planned = Vec::new();
         for channel in &part.channels {
-            let long = || format!("{}.{}", part.name, channel.name);
-            let name = if names.contains(&channel.name) { long() } else { channel.name.clone() };
+            let mut name = channel.name.clone();
+            if part.view != parts[0].view {
+                name = format!("{}.{name}", part.view);
+            }
+            if names.contains(&name) {
+                name = format!("{}.{name}", part.name);
+            }
             if !names.insert(name.clone()) {
                 return Err(format!("has two channels {name}"));
             }

@@ -81,6 +81,8 @@ pub(super) struct ChannelInfo {
 pub(super) struct PartLayout {
     /// Name of the part; empty where it has none.
     pub(super) name: String,
+    /// The eye it was made for; empty where it says nothing.
+    pub(super) view: String,
     pub(super) display: Window,
     pub(super) data: Window,
     pub(super) channels: Vec<ChannelInfo>,
@@ -121,7 +123,8 @@ fn check_part(part: &Part<'_>, limits: &Limits) -> Result<PartLayout, String> {
         let [width, height] = window.size();
         limits.check(width, height, pixel_bytes)?;
     }
-    Ok(PartLayout { name: text("name").unwrap_or_default(), display, data, channels })
+    let [name, view] = ["name", "view"].map(|n| text(n).unwrap_or_default());
+    Ok(PartLayout { name, view, display, data, channels })
 }
 
 fn check_compression(part: &Part<'_>) -> Result<(), String> {
