@@ -12,7 +12,7 @@
 
 use crate::error_bound::sheared_corner;
 use crate::ray::{Interval, Ray};
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3, Vec4, Vec4Swizzles};
 
 /// A ray with the shear that turns its direction into the third axis, worked out once per ray.
 ///
@@ -84,13 +84,17 @@ impl TriangleRay {
         &self.ray
     }
 
-    /// Where a corner, relative to the origin, lands in the plane across the ray.
+    /// Where the corners land in the plane across the ray, one lane each; the last lane is 0.
     ///
     /// It must stay a function of the ray and the corner alone: on that the watertightness rests.
     #[inline(always)]
-    fn project(&self, along: Axis, corner: Vec3) -> [f32; 2] {
-        let (x, y, z) = along.last(corner);
-        [x - self.slope[0] * z, y - self.slope[1] * z]
+    fn project(&self, along: Axis, corners: [Vec3; 3]) -> (Vec4, Vec4) {
+        let [a, b, c] = corners.map(|corner| along.last(corner));
+        let (x, y, z) = along.last(self.ray.origin);
+        let z = Vec4::new(a.2, b.2, c.2, z) - z;
+        let x = Vec4::new(a.0, b.0, c.0, x) - x;
+        let y = Vec4::new(a.1, b.1, c.1, y) - y;
+        (x - self.slope[0] * z, y - self.slope[1] * z)
     }
 }
 
@@ -125,22 +129,20 @@ fn intersect_along(
     range: Interval,
     corners: [Vec3; 3],
 ) -> Option<TriangleHit> {
-    // Look down the ray: the origin becomes (0, 0), and the ray the point there.
-    let [a, b, c] = corners.map(|corner| ray.project(along, corner - ray.ray.origin));
+    // Look down the ray: the origin becomes (0, 0), and the ray the point there. Lanes are the corners a, b, c.
+    let (x, y) = ray.project(along, corners);
 
-    // Twice the signed areas that the point spans with each edge. The two products are rounded in the same
-    // direction as they compare, so a sign is right or the difference is 0.
-    let u = c[0] * b[1] - c[1] * b[0];
-    let v = a[0] * c[1] - a[1] * c[0];
-    let w = b[0] * a[1] - b[1] * a[0];
+    // Twice the signed areas that the point spans with the edges opposite to a, b, c. The two products are rounded in
+    // the same direction as they compare, so a sign is right or the difference is 0.
+    let areas = x.zxyw() * y.yzxw() - y.zxyw() * x.yzxw();
 
     // The point is outside when it lies left of one edge and right of another.
-    if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
+    if areas.cmplt(Vec4::ZERO).any() && areas.cmpgt(Vec4::ZERO).any() {
         return None;
     }
 
     // What is left is likely a hit: decide it with products that `f64` holds exactly.
-    let weights = exact_weights([a, b, c])?;
+    let weights = exact_weights(x, y)?;
 
     // Find the distance to the plane, and see whether it counts.
     let t = plane_distance(ray, corners, weights)? as f32;
@@ -150,8 +152,8 @@ fn intersect_along(
 
 /// The barycentric weights of the point (0, 0) by edge functions whose products are exact; `None` when it is outside.
 #[inline]
-fn exact_weights(projected: [[f32; 2]; 3]) -> Option<[f64; 3]> {
-    let [a, b, c] = projected.map(|p| p.map(f64::from));
+fn exact_weights(x: Vec4, y: Vec4) -> Option<[f64; 3]> {
+    let [a, b, c] = [[x.x, y.x], [x.y, y.y], [x.z, y.z]].map(|p| p.map(f64::from));
     let u = c[0] * b[1] - c[1] * b[0];
     let v = a[0] * c[1] - a[1] * c[0];
     let w = b[0] * a[1] - b[1] * a[0];
@@ -159,8 +161,9 @@ fn exact_weights(projected: [[f32; 2]; 3]) -> Option<[f64; 3]> {
         return None;
     }
     let area = u + v + w;
-    // A triangle seen edge on covers nothing; a NaN ends here too.
-    (area.abs() > 0.0).then(|| [u / area, v / area, w / area])
+    // A triangle seen edge on covers nothing; infinities and NaN end here too.
+    let scale = 1.0 / area;
+    scale.is_normal().then(|| [u * scale, v * scale, w * scale])
 }
 
 /// The distance to the plane of a triangle that the line of the ray is known to meet; `None` behind the origin.

@@ -66,8 +66,8 @@ impl Geometry for Cuboid {
                 continue;
             }
             // The near plane is on the side the ray comes from.
-            let near = (-half.copysign(dir) - origin) / dir;
-            let far = (half.copysign(dir) - origin) / dir;
+            let (inverse, side) = (1.0 / dir, half.copysign(dir));
+            let (near, far) = ((-side - origin) * inverse, (side - origin) * inverse);
             let forward = u8::from(dir > 0.0);
             if near > enter {
                 (enter, enter_part) = (near, low_part + 1 - forward);
