@@ -18,6 +18,7 @@ pub mod object;
 pub mod scene;
 pub mod settings;
 pub mod texture;
+pub mod validate;
 
 pub use camera::Camera;
 pub use color::Rgb;

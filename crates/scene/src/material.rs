@@ -77,8 +77,15 @@ pub enum FresnelMode {
 
 /// The report's surface: Phong's local light, plus a mirror and a transparent part.
 ///
-/// Radiance = `emission + ambient * Ia + sum over lights of Li * (diffuse * max(n.l, 0) + specular * max(r.v, 0)^shininess)
-/// + mirror * reflected + transparency * refracted`, each transparent metre inside weighted by `exp(-absorption)`.
+/// Radiance is
+///
+/// ```text
+/// emission + ambient * Ia
+///   + sum over lights of Li * (diffuse * max(n.l, 0) + specular * max(r.v, 0)^shininess)
+///   + mirror * reflected + transparency * refracted
+/// ```
+///
+/// where each transparent metre inside is weighted by `exp(-absorption)`.
 ///
 /// # Source
 /// Phong, "Illumination for Computer Generated Pictures", CACM 1975; Whitted, "An Improved Illumination Model for

@@ -1,0 +1,38 @@
+//! Whether a scene can be rendered: every id points to something, every number means something.
+//!
+//! Scenes from files have passed stricter checks with places; this is for scenes made in code, and the last gate before the
+//! renderer, which trusts what passed it.
+
+mod collect;
+mod issue;
+mod items;
+
+pub use issue::{ItemKind, Problem, SceneIssue};
+
+use crate::scene::Scene;
+use collect::Collector;
+
+impl Scene {
+    /// Checks the whole scene.
+    ///
+    /// # Errors
+    /// Everything that is wrong, in the order meshes, textures, materials, objects, lights, cameras, background.
+    ///
+    /// ```
+    /// use heliostat_scene::{Scene, validate::Problem};
+    ///
+    /// let issues = Scene::default().validate().unwrap_err();
+    /// assert_eq!(issues[0].problem, Problem::NoCamera);
+    /// ```
+    pub fn validate(&self) -> Result<(), Vec<SceneIssue>> {
+        let mut collector = Collector::new(self);
+        items::meshes(self, &mut collector);
+        items::textures(self, &mut collector);
+        items::materials(self, &mut collector);
+        items::objects(self, &mut collector);
+        items::lights(self, &mut collector);
+        items::cameras(self, &mut collector);
+        items::background(self, &mut collector);
+        collector.finish()
+    }
+}
