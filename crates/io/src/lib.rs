@@ -1,7 +1,9 @@
 //! Files in and out: scene files, OBJ with MTL, textures, PNG and OpenEXR.
 
+pub mod animation;
 pub mod atomic;
 pub mod compare;
+mod document;
 pub mod error;
 pub mod exr_file;
 pub mod file;
@@ -12,9 +14,13 @@ pub mod obj;
 pub mod picture;
 pub mod png_file;
 pub mod save_error;
+pub mod scene_file;
+pub mod schema;
+pub mod source;
 pub mod texture_cache;
 pub mod view;
 
 pub use error::{LoadError, Warning};
 pub use save_error::SaveError;
+pub use source::{OpenOptions, Shot, Source, open};
 pub use view::{View, ViewTransform};

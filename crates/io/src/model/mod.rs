@@ -20,6 +20,9 @@ use heliostat_scene::{Camera, Material, Motion, Object, Scene};
 use std::path::Path;
 use std::sync::Arc;
 
+/// The name of the camera that sees all of a lone model.
+pub const FITTED_CAMERA: &str = "fitted";
+
 /// How a model becomes a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModelOptions {
@@ -63,7 +66,7 @@ pub fn scene_of(model: &ObjModel, name: &str, aspect: f32) -> Scene {
     let view = inside.map_or_else(|| View::from_outside(&meshes, bounds), View::into);
     let points = meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| p.as_dvec3());
     scene.cameras.push(Camera {
-        name: "fitted".to_owned(),
+        name: FITTED_CAMERA.to_owned(),
         motion: Motion::still(fit(points, &view, f64::from(aspect))),
         projection: Projection::Perspective { fov_y: view.fov_y as f32 },
         focus: None,

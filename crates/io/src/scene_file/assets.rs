@@ -1,0 +1,174 @@
+//! Files that a scene names, read once and shared by all its frames.
+
+use super::mesh::{MeshTable, ModelTable, smooth_angle};
+use super::texture::EncodingMode;
+use crate::document::{Fault, Placed};
+use crate::error::{LoadError, quote};
+use crate::image_file::{Limits, read_image};
+use crate::nearest::nearest_name;
+use crate::obj::{ObjModel, ObjOptions, Split, load_obj};
+use crate::texture_cache::TextureCache;
+use heliostat_geometry::TriMesh;
+use heliostat_scene::Image;
+use heliostat_scene::image::Encoding;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What is wrong: with the scene file, or inside another file.
+#[derive(Debug)]
+pub(crate) enum Trouble {
+    /// At a place of the scene file.
+    Here(Fault),
+    /// In a file that it names.
+    Elsewhere(LoadError),
+}
+
+impl From<Fault> for Trouble {
+    fn from(fault: Fault) -> Self {
+        Self::Here(fault)
+    }
+}
+
+/// What makes two readings of an OBJ file the same: path, smooth angle, all in one.
+type ModelKey = (PathBuf, u32, bool);
+
+/// Files that have been read.
+#[derive(Debug)]
+pub(crate) struct Assets {
+    folder: PathBuf,
+    models: HashMap<ModelKey, Arc<ObjModel>>,
+    /// Images as their files say, as sRGB, and as plain numbers.
+    images: [TextureCache; 3],
+}
+
+impl Assets {
+    /// Nothing read yet; paths are relative to `folder`.
+    pub(crate) fn new(folder: &Path) -> Self {
+        let encoded = |encoding: Option<Encoding>| {
+            TextureCache::with_reader(move |path| {
+                let mut image = read_image(path, &Limits::default())?;
+                image.encoding = encoding.unwrap_or(image.encoding);
+                Ok(image)
+            })
+        };
+        Self {
+            folder: folder.to_owned(),
+            models: HashMap::new(),
+            images: [encoded(None), encoded(Some(Encoding::Srgb)), encoded(Some(Encoding::Linear))],
+        }
+    }
+
+    /// An image.
+    ///
+    /// # Errors
+    /// At the name, when the file cannot be read.
+    pub(crate) fn image(
+        &mut self,
+        file: &Placed<String>,
+        encoding: EncodingMode,
+        made_by: Option<&str>,
+    ) -> Result<Arc<Image>, Fault> {
+        let path = self.folder.join(file.as_str());
+        let cache = match encoding {
+            EncodingMode::Auto => 0,
+            EncodingMode::Srgb => 1,
+            EncodingMode::Linear => 2,
+        };
+        self.images[cache].image(&path).map_err(|error| fault_at(file, &path, &error, made_by))
+    }
+
+    /// All of an OBJ file as one mesh.
+    ///
+    /// # Errors
+    /// When the file cannot be read, is damaged, or has no faces.
+    pub(crate) fn mesh(&mut self, table: &MeshTable) -> Result<Arc<TriMesh>, Trouble> {
+        let angle = smooth_angle(table.smooth_angle);
+        let model = self.obj(&table.file, angle, Split::Whole, table.made_by.as_deref())?;
+        let mesh = model.objects.first().map(|object| Arc::clone(&object.mesh));
+        mesh.ok_or_else(|| Trouble::Here(without_faces(&table.file)))
+    }
+
+    /// An OBJ file as it is.
+    ///
+    /// # Errors
+    /// When the file cannot be read, is damaged, or has no faces.
+    pub(crate) fn model(&mut self, table: &ModelTable) -> Result<Arc<ObjModel>, Trouble> {
+        let angle = smooth_angle(table.smooth_angle);
+        let model = self.obj(&table.file, angle, Split::Groups, table.made_by.as_deref())?;
+        if model.objects.is_empty() { Err(without_faces(&table.file).into()) } else { Ok(model) }
+    }
+
+    /// An OBJ file that is the whole scene.
+    ///
+    /// # Errors
+    /// When the file cannot be read, is damaged, or has no faces.
+    pub(crate) fn lone_model(&mut self, path: &Path) -> Result<Arc<ObjModel>, Trouble> {
+        let model =
+            load_obj(path, &ObjOptions::default(), &mut self.images[0]).map_err(Trouble::Elsewhere)?;
+        if model.objects.is_empty() {
+            let error = LoadError::new(path, "has no faces").with_help("name an OBJ file with `f` lines");
+            return Err(Trouble::Elsewhere(error));
+        }
+        Ok(Arc::new(model))
+    }
+
+    fn obj(
+        &mut self,
+        file: &Placed<String>,
+        smooth_angle: f32,
+        split: Split,
+        made_by: Option<&str>,
+    ) -> Result<Arc<ObjModel>, Trouble> {
+        let path = self.folder.join(file.as_str());
+        let key = (path.clone(), smooth_angle.to_bits(), split == Split::Whole);
+        if let Some(model) = self.models.get(&key) {
+            return Ok(Arc::clone(model));
+        }
+        let options = ObjOptions { smooth_angle, split, ..ObjOptions::default() };
+        match load_obj(&path, &options, &mut self.images[0]) {
+            Ok(model) => {
+                let model = Arc::new(model);
+                self.models.insert(key, Arc::clone(&model));
+                Ok(model)
+            }
+            // An error with a place lies inside a file; one without is about the file that the scene names.
+            Err(error) if error.report().place.is_some() => Err(Trouble::Elsewhere(error)),
+            Err(error) => Err(fault_at(file, &path, &error, made_by).into()),
+        }
+    }
+}
+
+fn without_faces(file: &Placed<String>) -> Fault {
+    Fault::new(format!("{} has no faces", quote(file)))
+        .with_help("name an OBJ file with `f` lines")
+        .or_at(file.span())
+}
+
+/// The trouble with a file, at the place that names it.
+fn fault_at(file: &Placed<String>, path: &Path, error: &LoadError, made_by: Option<&str>) -> Fault {
+    let report = error.report();
+    let fault = Fault::new(format!("{}: {}", quote(file), report.message)).or_at(file.span());
+    if path.exists() {
+        return match &report.help {
+            Some(help) => fault.with_help(help.clone()),
+            None => fault,
+        };
+    }
+    match (made_by, near_file(path)) {
+        (Some(command), _) => fault.with_help(format!("make it with {}", quote(command))),
+        (None, Some(near)) => fault.with_help(format!("did you mean {}?", quote(&near))),
+        (None, None) => fault.with_help(format!("looked for {}", path.display())),
+    }
+}
+
+/// The name in the folder of `path` that is most like its own.
+fn near_file(path: &Path) -> Option<String> {
+    let name = path.file_name()?.to_str()?;
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let names: Vec<String> = std::fs::read_dir(folder)
+        .ok()?
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .collect();
+    nearest_name(name, names.iter().map(String::as_str)).map(str::to_owned)
+}

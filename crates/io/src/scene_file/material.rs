@@ -1,0 +1,199 @@
+//! `[[material]]`: how surfaces answer light.
+//!
+//! # Scene file
+//! ```toml
+//! [[material]]
+//! name = "glass"
+//! opacity = 1                    # 0 lets rays straight through; with a texture, its alpha
+//! bump = { texture = "noise", strength = 0.01 }              # metres of white; or
+//! # normal_map = { texture = "bricks_normal", strength = 1 } # tangent space, +y up
+//!
+//! [material.phong]               # all optional; these are the defaults
+//! ambient = 0.1                  # share of the ambient light
+//! diffuse = 0.7
+//! specular = 0
+//! shininess = 32                 # exponent of the highlight
+//! emission = 0                   # radiance of its own
+//! mirror = 0                     # weight of the reflected ray
+//! transparency = 0               # weight of the refracted ray
+//! ior = 1.5                      # index of refraction
+//! absorption = 0                 # per metre inside: exp(-absorption * length) is left
+//! fresnel = false                # whether the angle shares transparency between refraction and reflection
+//! ```
+
+use super::choice::{at_most_one, choice};
+use super::number::{Fraction, NonNegative, Number, Positive};
+use super::texturable::{Texturable, Textured};
+use super::value::Color;
+use crate::document::{Fault, Placed};
+use heliostat_scene::material::{ColorInput, FloatInput, FresnelMode, Material, Phong, Relief, Surface};
+use heliostat_scene::{Rgb, TextureId};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How a surface answers light.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MaterialTable {
+    /// Name, unique among materials; becomes the Cryptomatte name.
+    pub name: Placed<String>,
+    /// Coverage from 0 to 1; with a texture, its alpha. 1 if left out.
+    pub opacity: Option<Texturable<Fraction>>,
+    /// A height map that bends the shading normal.
+    pub bump: Option<Placed<BumpTable>>,
+    /// A normal map that bends the shading normal.
+    pub normal_map: Option<Placed<NormalMapTable>>,
+    /// Phong's model with a mirror and a transparent part.
+    pub phong: Option<PhongTable>,
+}
+
+/// A height map.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BumpTable {
+    /// The name of a `[[texture]]`; its luminance is the height.
+    pub texture: Placed<String>,
+    /// Height of white in metres.
+    pub strength: Number,
+}
+
+/// A tangent-space normal map, +y up.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NormalMapTable {
+    /// The name of a `[[texture]]`.
+    pub texture: Placed<String>,
+    /// Scale of the bend; 1 if left out.
+    pub strength: Option<Number>,
+}
+
+/// Phong's model with a mirror and a transparent part.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct PhongTable {
+    /// Ka: share of the ambient light; 0.1 if left out.
+    pub ambient: Option<Texturable<Color>>,
+    /// Kd: share of diffuse light; 0.7 if left out.
+    pub diffuse: Option<Texturable<Color>>,
+    /// Ks: share of the highlight; 0 if left out.
+    pub specular: Option<Texturable<Color>>,
+    /// Exponent of the highlight; 32 if left out.
+    pub shininess: Option<Texturable<NonNegative>>,
+    /// Ke: radiance of its own; 0 if left out.
+    pub emission: Option<Texturable<Color>>,
+    /// Weight of the reflected ray; 0 if left out.
+    pub mirror: Option<Texturable<Color>>,
+    /// Weight of the refracted ray; 0 if left out.
+    pub transparency: Option<Texturable<Color>>,
+    /// Index of refraction; 1.5 if left out.
+    pub ior: Option<Positive>,
+    /// Absorption per metre inside; 0 if left out.
+    pub absorption: Option<Color>,
+    /// Whether the Fresnel equations share `transparency` between refraction and reflection; `false` if left out.
+    pub fresnel: Option<bool>,
+}
+
+/// What a texture is used for, which decides how `encoding = "auto"` reads it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum TextureUse {
+    /// A colour, encoded as the file says.
+    Color,
+    /// A height, a direction, an exponent: linear numbers.
+    Data,
+}
+
+/// Finds a texture by name for a use.
+pub(super) trait FindTexture {
+    /// The texture in the scene.
+    fn find(&mut self, name: &Placed<String>, used_for: TextureUse) -> Result<TextureId, Fault>;
+}
+
+impl MaterialTable {
+    /// The material of the scene.
+    pub(super) fn build(&self, textures: &mut impl FindTexture) -> Result<Material, Fault> {
+        at_most_one(&[choice("bump", self.bump.as_ref()), choice("normal_map", self.normal_map.as_ref())])?;
+        let phong = match &self.phong {
+            Some(table) => table.build(textures)?,
+            None => Phong::default(),
+        };
+        let one = FloatInput::constant(1.0);
+        Ok(Material {
+            name: self.name.to_string(),
+            surface: Surface::Phong(phong),
+            // Alpha has no encoding: the image that gives the colour serves here too.
+            opacity: float_input(self.opacity.as_ref(), Fraction::f32, one, TextureUse::Color, textures)?,
+            relief: self.relief(textures)?,
+        })
+    }
+
+    fn relief(&self, textures: &mut impl FindTexture) -> Result<Option<Relief>, Fault> {
+        if let Some(bump) = &self.bump {
+            let texture = textures.find(&bump.texture, TextureUse::Data)?;
+            return Ok(Some(Relief::Bump { texture, strength: bump.strength.f32() }));
+        }
+        let Some(map) = &self.normal_map else { return Ok(None) };
+        let texture = textures.find(&map.texture, TextureUse::Data)?;
+        let strength = map.strength.map_or(1.0, Number::f32);
+        Ok(Some(Relief::Normal { texture, strength }))
+    }
+}
+
+impl PhongTable {
+    fn build(&self, textures: &mut impl FindTexture) -> Result<Phong, Fault> {
+        let normal = Phong::default();
+        Ok(Phong {
+            ambient: color_input(self.ambient.as_ref(), normal.ambient, textures)?,
+            diffuse: color_input(self.diffuse.as_ref(), normal.diffuse, textures)?,
+            specular: color_input(self.specular.as_ref(), normal.specular, textures)?,
+            shininess: float_input(
+                self.shininess.as_ref(),
+                NonNegative::f32,
+                normal.shininess,
+                TextureUse::Data,
+                textures,
+            )?,
+            emission: color_input(self.emission.as_ref(), normal.emission, textures)?,
+            mirror: color_input(self.mirror.as_ref(), normal.mirror, textures)?,
+            transparency: color_input(self.transparency.as_ref(), normal.transparency, textures)?,
+            ior: self.ior.map_or(normal.ior, Positive::f32),
+            absorption: self.absorption.map_or(normal.absorption, |c| c.rgb()),
+            fresnel: match self.fresnel {
+                Some(true) => FresnelMode::Dielectric,
+                Some(false) => FresnelMode::Off,
+                None => normal.fresnel,
+            },
+        })
+    }
+}
+
+fn color_input(
+    value: Option<&Texturable<Color>>,
+    absent: ColorInput,
+    textures: &mut impl FindTexture,
+) -> Result<ColorInput, Fault> {
+    match value {
+        None => Ok(absent),
+        Some(Texturable::Constant(color)) => Ok(ColorInput::constant(color.rgb())),
+        Some(Texturable::Texture(Textured { texture, factor })) => Ok(ColorInput {
+            factor: factor.map_or(Rgb::ONE, |factor| factor.rgb()),
+            texture: Some(textures.find(texture, TextureUse::Color)?),
+        }),
+    }
+}
+
+fn float_input<T: Copy>(
+    value: Option<&Texturable<T>>,
+    single: fn(T) -> f32,
+    absent: FloatInput,
+    used_for: TextureUse,
+    textures: &mut impl FindTexture,
+) -> Result<FloatInput, Fault> {
+    match value {
+        None => Ok(absent),
+        Some(Texturable::Constant(value)) => Ok(FloatInput::constant(single(*value))),
+        Some(Texturable::Texture(Textured { texture, factor })) => Ok(FloatInput {
+            factor: factor.map_or(1.0, single),
+            texture: Some(textures.find(texture, used_for)?),
+        }),
+    }
+}

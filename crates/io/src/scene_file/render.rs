@@ -1,0 +1,276 @@
+//! `[render]`: how much work goes into a picture, and which layers come out.
+//!
+//! # Scene file
+//! ```toml
+//! [render]                       # these are the defaults
+//! width = 960
+//! height = 540
+//! # region = [0, 0, 480, 270]    # left, top, right, bottom: only these pixels
+//! samples = 16                   # camera rays per pixel
+//! integrator = "whitted"         # "normals", "depth", "uv", "ambient_occlusion", "cost"
+//! filter = "blackman_harris"     # "box", "tent", "gaussian", "mitchell", "lanczos"
+//! filter_radius = 1.5            # pixels; the default depends on the filter
+//! seed = 0
+//! max_depth = 12                 # reflections and refractions in a row
+//! min_weight = 0.001953125       # a branch of less weight is cut
+//! transparent_shadows = false    # whether light passes, coloured and straight, through transparent things
+//! ao_samples = 16                # rays per point of the integrator "ambient_occlusion"
+//! # ao_distance = 1              # their length in metres; without end if left out
+//! layers = []                    # "depth", "normal", "albedo", "position", "uv", "object_id", "material_id"
+//! transparent_background = false # alpha 0 where rays leave the scene
+//! # camera = "main"              # the first camera if left out
+//! ```
+
+use super::number::{Count, NonNegative, Positive, Whole};
+use crate::document::{Fault, Placed};
+use heliostat_scene::RenderSettings;
+use heliostat_scene::settings::{Filter, IntegratorKind, Layers, PixelRect};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Pixels along one side of a picture.
+pub type Side = Whole<1, 65_535>;
+
+/// Most pixels of a picture: 2^30.
+const MOST_PIXELS: i64 = 1 << 30;
+
+/// How much work goes into a picture.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct RenderTable {
+    /// Width in pixels; 960 if left out.
+    pub width: Option<Placed<Side>>,
+    /// Height in pixels; 540 if left out.
+    pub height: Option<Placed<Side>>,
+    /// Left, top, right and bottom of the pixels to render; right and bottom lie outside. All if left out.
+    pub region: Option<Placed<[Whole<0, 65_535>; 4]>>,
+    /// Camera rays per pixel; 16 if left out.
+    pub samples: Option<Count>,
+    /// How radiance is found; `whitted` if left out.
+    pub integrator: Option<IntegratorName>,
+    /// Reconstruction filter; `blackman_harris` if left out.
+    pub filter: Option<FilterName>,
+    /// Radius of the filter in pixels; 0.5 for `box`, 1 for `tent`, 1.5 for `gaussian` and `blackman_harris`, 2 for `mitchell`,
+    /// 3 for `lanczos` if left out.
+    pub filter_radius: Option<Positive>,
+    /// Seed of all random numbers; 0 if left out.
+    pub seed: Option<u64>,
+    /// Reflections and refractions in a row, at most; 12 if left out.
+    pub max_depth: Option<Whole<0, 1_024>>,
+    /// A branch whose product of weights falls below this is cut; 1/512 if left out.
+    pub min_weight: Option<NonNegative>,
+    /// Whether light passes straight and coloured through transparent things; `false` if left out.
+    pub transparent_shadows: Option<bool>,
+    /// Rays per point of the integrator `ambient_occlusion`; 16 if left out.
+    pub ao_samples: Option<Count>,
+    /// Length of those rays in metres; without end if left out.
+    pub ao_distance: Option<Positive>,
+    /// Layers beside the beauty.
+    pub layers: Option<Vec<LayerName>>,
+    /// Whether alpha is 0 where rays leave the scene; `false` if left out.
+    pub transparent_background: Option<bool>,
+    /// The name of the camera; the first if left out.
+    pub camera: Option<Placed<String>>,
+}
+
+/// How radiance is found along a camera ray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum IntegratorName {
+    /// Whitted's recursion.
+    Whitted,
+    /// Shading normals as colours.
+    Normals,
+    /// Distance, near is white.
+    Depth,
+    /// Texture coordinates as colours.
+    Uv,
+    /// Openness to the sky.
+    AmbientOcclusion,
+    /// Steps of the index as a heat map.
+    Cost,
+}
+
+/// Reconstruction filters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum FilterName {
+    /// Equal weight.
+    Box,
+    /// Falling linearly.
+    Tent,
+    /// A Gaussian of standard deviation radius / 3.
+    Gaussian,
+    /// Mitchell and Netravali.
+    Mitchell,
+    /// A four-term Blackman-Harris window.
+    BlackmanHarris,
+    /// A windowed sinc.
+    Lanczos,
+}
+
+/// Layers beside the beauty.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LayerName {
+    /// `Z`: distance along the view.
+    Depth,
+    /// `N`: shading normal in world space.
+    Normal,
+    /// `albedo`: colour of the surface.
+    Albedo,
+    /// `P`: position in world space.
+    Position,
+    /// `UV`: texture coordinates.
+    Uv,
+    /// `object_id`: index of the object + 1.
+    ObjectId,
+    /// `material_id`: index of the material + 1.
+    MaterialId,
+}
+
+/// The names of the filters and their counterparts in the scene.
+const FILTERS: [(FilterName, Filter); 6] = [
+    (FilterName::Box, Filter::Box),
+    (FilterName::Tent, Filter::Tent),
+    (FilterName::Gaussian, Filter::Gaussian),
+    (FilterName::Mitchell, Filter::Mitchell),
+    (FilterName::BlackmanHarris, Filter::BlackmanHarris),
+    (FilterName::Lanczos, Filter::Lanczos),
+];
+
+/// The names of the integrators and their counterparts in the scene.
+const INTEGRATORS: [(IntegratorName, IntegratorKind); 6] = [
+    (IntegratorName::Whitted, IntegratorKind::Whitted),
+    (IntegratorName::Normals, IntegratorKind::Normals),
+    (IntegratorName::Depth, IntegratorKind::Depth),
+    (IntegratorName::Uv, IntegratorKind::Uv),
+    (IntegratorName::AmbientOcclusion, IntegratorKind::AmbientOcclusion),
+    (IntegratorName::Cost, IntegratorKind::Cost),
+];
+
+/// The other half of the pair that holds `from`.
+fn counterpart<A: Copy + PartialEq, B: Copy>(pairs: &[(A, B)], from: A) -> Option<B> {
+    pairs.iter().find(|(a, _)| *a == from).map(|&(_, b)| b)
+}
+
+/// The other half of the pair that holds `from`, backwards.
+fn counterpart_of<A: Copy, B: Copy + PartialEq>(pairs: &[(A, B)], from: B) -> Option<A> {
+    pairs.iter().find(|(_, b)| *b == from).map(|&(a, _)| a)
+}
+
+fn default_radius(filter: Filter) -> f32 {
+    match filter {
+        Filter::Box => 0.5,
+        Filter::Tent => 1.0,
+        Filter::Gaussian | Filter::BlackmanHarris => 1.5,
+        Filter::Mitchell => 2.0,
+        Filter::Lanczos => 3.0,
+    }
+}
+
+impl RenderTable {
+    /// The settings, with `camera` as the index of the camera.
+    pub(crate) fn settings(&self, camera: usize) -> Result<RenderSettings, Fault> {
+        let normal = RenderSettings::default();
+        let (width, height) = self.size(&normal)?;
+        let filter = self.filter.and_then(|name| counterpart(&FILTERS, name)).unwrap_or(normal.filter);
+        let integrator = self.integrator.and_then(|name| counterpart(&INTEGRATORS, name));
+        Ok(RenderSettings {
+            width,
+            height,
+            region: self.region(width, height)?,
+            samples: self.samples.map_or(normal.samples, Count::u32),
+            integrator: integrator.unwrap_or(normal.integrator),
+            filter,
+            filter_radius: self.filter_radius.map_or(default_radius(filter), Positive::f32),
+            seed: self.seed.unwrap_or(normal.seed),
+            max_depth: self.max_depth.map_or(normal.max_depth, Whole::u32),
+            min_weight: self.min_weight.map_or(normal.min_weight, NonNegative::f32),
+            transparent_shadows: self.transparent_shadows.unwrap_or(normal.transparent_shadows),
+            ao_samples: self.ao_samples.map_or(normal.ao_samples, Count::u32),
+            ao_distance: self.ao_distance.map_or(normal.ao_distance, Positive::f32),
+            layers: layers(self.layers.as_deref().unwrap_or_default()),
+            transparent_background: self.transparent_background.unwrap_or(normal.transparent_background),
+            camera,
+            threads: normal.threads,
+        })
+    }
+
+    fn size(&self, normal: &RenderSettings) -> Result<(u32, u32), Fault> {
+        let width = self.width.as_ref().map_or(normal.width, |side| side.u32());
+        let height = self.height.as_ref().map_or(normal.height, |side| side.u32());
+        if i64::from(width) * i64::from(height) > MOST_PIXELS {
+            let side = self.width.as_ref().or(self.height.as_ref());
+            return Err(Fault::new(format!("a picture of {width} x {height} pixels is too large"))
+                .with_help(format!("choose at most {MOST_PIXELS} pixels in all"))
+                .or_at(side.and_then(Placed::span)));
+        }
+        Ok((width, height))
+    }
+
+    fn region(&self, width: u32, height: u32) -> Result<Option<PixelRect>, Fault> {
+        let Some(region) = &self.region else { return Ok(None) };
+        let [x0, y0, x1, y1] = region.map(Whole::u32);
+        if x0 < x1 && y0 < y1 && x1 <= width && y1 <= height {
+            return Ok(Some(PixelRect { x0, y0, x1, y1 }));
+        }
+        Err(Fault::new("the region is empty or leaves the picture")
+            .with_help(format!("write [left, top, right, bottom] within [0, 0, {width}, {height}]"))
+            .or_at(region.span()))
+    }
+
+    /// The table that gives `settings`, seen through the camera of that name.
+    ///
+    /// Threads belong to the machine and are left out.
+    pub fn from_settings(settings: &RenderSettings, camera: Option<&str>) -> Self {
+        let region = settings.region.and_then(|r| {
+            let side = |v: u32| Whole::new(i64::from(v));
+            Some([side(r.x0)?, side(r.y0)?, side(r.x1)?, side(r.y1)?].into())
+        });
+        Self {
+            width: Whole::new(settings.width.into()).map(Placed::from),
+            height: Whole::new(settings.height.into()).map(Placed::from),
+            region,
+            samples: Whole::new(settings.samples.into()),
+            integrator: counterpart_of(&INTEGRATORS, settings.integrator),
+            filter: counterpart_of(&FILTERS, settings.filter),
+            filter_radius: Positive::new(settings.filter_radius.into()),
+            seed: Some(settings.seed),
+            max_depth: Whole::new(settings.max_depth.into()),
+            min_weight: NonNegative::new(settings.min_weight.into()),
+            transparent_shadows: Some(settings.transparent_shadows),
+            ao_samples: Whole::new(settings.ao_samples.into()),
+            ao_distance: Positive::new(settings.ao_distance.into()),
+            layers: Some(layer_names(settings.layers)),
+            transparent_background: Some(settings.transparent_background),
+            camera: camera.map(|name| name.to_owned().into()),
+        }
+    }
+}
+
+fn layers(names: &[LayerName]) -> Layers {
+    let has = |name| names.contains(&name);
+    Layers {
+        depth: has(LayerName::Depth),
+        normal: has(LayerName::Normal),
+        albedo: has(LayerName::Albedo),
+        position: has(LayerName::Position),
+        uv: has(LayerName::Uv),
+        object_id: has(LayerName::ObjectId),
+        material_id: has(LayerName::MaterialId),
+    }
+}
+
+fn layer_names(layers: Layers) -> Vec<LayerName> {
+    let pairs = [
+        (layers.depth, LayerName::Depth),
+        (layers.normal, LayerName::Normal),
+        (layers.albedo, LayerName::Albedo),
+        (layers.position, LayerName::Position),
+        (layers.uv, LayerName::Uv),
+        (layers.object_id, LayerName::ObjectId),
+        (layers.material_id, LayerName::MaterialId),
+    ];
+    pairs.into_iter().filter(|(is_on, _)| *is_on).map(|(_, name)| name).collect()
+}
