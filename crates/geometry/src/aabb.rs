@@ -4,6 +4,16 @@ use crate::ray::{Interval, Ray};
 use glam::Vec3;
 
 /// A closed axis-aligned box. Empty when any `min` lies above its `max`; sides may be infinite.
+///
+/// ```
+/// use glam::Vec3;
+/// use heliostat_geometry::{Aabb, Ray};
+///
+/// let bounds = Aabb::of_points([Vec3::ZERO, Vec3::new(1.0, 2.0, 3.0)]);
+/// assert_eq!((bounds.surface_area(), bounds.longest_axis()), (22.0, 2));
+/// assert!(bounds.clip(&Ray::new(Vec3::new(0.5, 1.0, 9.0), Vec3::NEG_Z)).is_some());
+/// assert!(bounds.clip(&Ray::new(Vec3::new(0.5, 1.0, 9.0), Vec3::Z)).is_none());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb {
     /// Lower corner.

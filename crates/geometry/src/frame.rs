@@ -3,6 +3,15 @@
 use glam::Vec3;
 
 /// Three unit vectors at right angles, right-handed: `x cross y = z`.
+///
+/// ```
+/// use glam::Vec3;
+/// use heliostat_geometry::OrthonormalFrame;
+///
+/// let frame = OrthonormalFrame::around(Vec3::X);
+/// assert_eq!(frame.to_world(Vec3::Z), Vec3::X);
+/// assert_eq!(frame.to_local(Vec3::X), Vec3::Z);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OrthonormalFrame {
     /// First tangent.

@@ -5,6 +5,24 @@ use crate::ray::{Interval, Ray};
 use glam::{Vec2, Vec3};
 
 /// A point on a surface: enough to start a ray from it.
+///
+/// The promise of the spawned rays holds for directions further from the tangent plane than the rounding of the normal
+/// itself, about `1e-7`, and for surfaces that are larger than the spacing of numbers where they are.
+///
+/// ```
+/// use glam::{DVec3, Vec3};
+/// use heliostat_geometry::shape::{Geometry, Sphere};
+/// use heliostat_geometry::{Ray, Transform};
+///
+/// // A pebble a kilometre away, where neighbouring numbers are 6e-5 apart.
+/// let place = Transform::translation(Vec3::new(0.0, 0.0, 1000.0));
+/// let sphere = Sphere { radius: 0.01 };
+/// let ray = place.local_ray(&Ray::new(Vec3::new(0.001, 0.002, 0.0), Vec3::Z));
+/// let hit = place.hit_to_world(&sphere.surface(&ray, sphere.hit(&ray).unwrap()));
+/// // The reflected ray is free, the refracted one meets the far side.
+/// assert!(sphere.hit(&place.local_ray(&hit.spawn(Vec3::NEG_Z))).is_none());
+/// assert!(sphere.hit(&place.local_ray(&hit.spawn(Vec3::Z))).is_some());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
     /// Position.
@@ -30,6 +48,9 @@ impl SurfacePoint {
     }
 
     /// A ray to a point on another surface, with `t` in `[0, 1]`; it ends just before that surface.
+    ///
+    /// The end keeps clear of the target by the error bound of the target *and* of the ray's own length, which is the
+    /// larger one when the ray comes from far away.
     pub fn spawn_to_surface(&self, target: &Self) -> Ray {
         let back = self.p - target.p;
         self.spawn_to(offset_origin(target.p, target.p_err + segment_end(back), target.ng, back))

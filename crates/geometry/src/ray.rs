@@ -40,6 +40,15 @@ impl Interval {
 /// A half line `origin + t * dir` for `t` in `range`.
 ///
 /// `dir` need not be a unit vector; `t` counts in lengths of `dir`, so an affine transform of the ray keeps `t`.
+///
+/// ```
+/// use glam::Vec3;
+/// use heliostat_geometry::Ray;
+///
+/// let ray = Ray::new(Vec3::ZERO, Vec3::new(0.0, 0.0, -2.0)).until(10.0);
+/// assert_eq!(ray.at(3.0), Vec3::new(0.0, 0.0, -6.0));
+/// assert!(ray.range.contains(10.0) && !ray.range.contains(10.5));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     /// Where `t = 0`.

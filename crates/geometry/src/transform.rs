@@ -232,7 +232,20 @@ impl Transform {
         determinant * (self.to_local.matrix3.transpose() * ng.normalize_or_zero()).length()
     }
 
-    /// A point uniform by local area, seen from world space: its density becomes one over world area.
+    /// A point uniform by local area, seen from world space, with its density there.
+    ///
+    /// Under a scale that differs per axis a point uniform by local area is no longer uniform; the density says so.
+    ///
+    /// ```
+    /// use glam::{Vec2, Vec3};
+    /// use heliostat_geometry::Transform;
+    /// use heliostat_geometry::shape::{Geometry, Rectangle};
+    ///
+    /// let lamp = Rectangle { size: Vec2::ONE };
+    /// let place = Transform::scaling(Vec3::new(2.0, 7.0, 3.0)).unwrap();
+    /// let sample = place.sample_to_world(&lamp.sample(Vec2::ZERO).unwrap());
+    /// assert!((sample.pdf * 6.0 - 1.0).abs() < 1e-6);
+    /// ```
     pub fn sample_to_world(&self, sample: &AreaSample) -> SurfaceSample {
         SurfaceSample {
             at: self.surface_point(sample.p, sample.p_err, sample.ng),

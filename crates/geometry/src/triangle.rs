@@ -163,7 +163,7 @@ fn exact_weights(x: Vec4, y: Vec4) -> Option<[f64; 3]> {
     let area = u + v + w;
     // A triangle seen edge on covers nothing; infinities and NaN end here too.
     let scale = 1.0 / area;
-    scale.is_normal().then(|| [u * scale, v * scale, w * scale])
+    scale.is_normal().then_some([u * scale, v * scale, w * scale])
 }
 
 /// The distance to the plane of a triangle that the line of the ray is known to meet; `None` behind the origin.

@@ -132,6 +132,15 @@ pub fn triangle_to_square(weights: [f32; 3]) -> Vec2 {
 /// A uniform point in the regular polygon with `sides` corners on the unit circle, one of them at `(1, 0)`.
 ///
 /// This is the opening of an iris with that many blades. Fewer than 3 sides give the disk.
+///
+/// ```
+/// use glam::Vec2;
+/// use heliostat_geometry::warp::{polygon_pdf, square_to_polygon};
+///
+/// assert_eq!(square_to_polygon(Vec2::new(0.5, 0.0), 6), Vec2::ZERO);
+/// // The square on its corner has area 2.
+/// assert!((polygon_pdf(4) - 0.5).abs() < 1e-6);
+/// ```
 pub fn square_to_polygon(u: Vec2, sides: u32) -> Vec2 {
     if sides < 3 {
         return square_to_disk(u);

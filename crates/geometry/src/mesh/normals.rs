@@ -57,6 +57,20 @@ impl TriMesh {
     /// in with its area times its angle at the vertex, so that neither slivers nor the way a polygon was cut
     /// into triangles bend the normal. Old normals are dropped. Triangles without area take part in nothing and
     /// receive the mean of their neighbours.
+    ///
+    /// ```
+    /// use glam::Vec3;
+    /// use heliostat_geometry::TriMesh;
+    ///
+    /// // A roof of two triangles with a right angle at the ridge from 0 to Z.
+    /// let positions = vec![Vec3::ZERO, Vec3::Z, Vec3::new(1.0, -1.0, 0.0), Vec3::new(-1.0, -1.0, 0.0)];
+    /// let roof = TriMesh { positions, triangles: vec![[0, 1, 2], [1, 0, 3]], ..TriMesh::default() };
+    /// let (mut sharp, mut smooth) = (roof.clone(), roof);
+    /// sharp.compute_normals(60.0_f32.to_radians());
+    /// smooth.compute_normals(120.0_f32.to_radians());
+    /// assert_eq!((sharp.positions.len(), smooth.positions.len()), (6, 4));
+    /// assert!(smooth.normals[0].y > 0.9);
+    /// ```
     pub fn compute_normals(&mut self, max_angle: f32) {
         let cos_max = f64::from(max_angle).cos();
         let units: Vec<DVec3> =

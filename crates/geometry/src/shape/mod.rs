@@ -83,6 +83,16 @@ pub struct AreaSample {
 }
 
 /// What every shape can say of itself.
+///
+/// ```
+/// use glam::Vec2;
+/// use heliostat_geometry::shape::{Disk, Geometry};
+///
+/// let disk = Disk { radius: 2.0, inner_radius: 1.0 };
+/// let sample = disk.sample(Vec2::new(0.3, 0.8)).unwrap();
+/// assert!((1.0..=2.0).contains(&sample.p.length()));
+/// assert_eq!(sample.pdf * disk.area(), 1.0);
+/// ```
 pub trait Geometry {
     /// The nearest root that the ray accepts.
     fn hit(&self, ray: &LocalRay) -> Option<Root>;
