@@ -5,6 +5,7 @@
 
 use crate::filter::PixelFilter;
 use crate::integrator::FirstHit;
+use glam::{Vec2, Vec3};
 use heliostat_scene::Rgb;
 use heliostat_scene::settings::PixelRect;
 use std::ops::Range;
@@ -66,19 +67,46 @@ struct Sum {
     count: u32,
 }
 
-/// The sample nearest to the centre of its pixel.
+/// The sample nearest to the centre of its pixel, in as few bytes as there are pixels many.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Nearest {
     /// Squared distance from the centre; infinite while there is no sample.
-    distance: f64,
+    distance: f32,
     /// Depth, [`MISS_DEPTH`] on a miss.
     pub(crate) depth: f32,
-    /// The surface.
-    pub(crate) hit: Option<FirstHit>,
+    /// Shading normal, position and surface parameters; 0 on a miss.
+    pub(crate) normal: Vec3,
+    pub(crate) p: Vec3,
+    pub(crate) uv: Vec2,
+    /// Index + 1 of the object and its material; 0 for none.
+    pub(crate) object: u32,
+    pub(crate) material: u32,
 }
 
 impl Nearest {
-    pub(crate) const NONE: Self = Self { distance: f64::INFINITY, depth: MISS_DEPTH, hit: None };
+    /// No sample, or one that met nothing.
+    pub(crate) const NONE: Self = Self {
+        distance: f32::INFINITY,
+        depth: MISS_DEPTH,
+        normal: Vec3::ZERO,
+        p: Vec3::ZERO,
+        uv: Vec2::ZERO,
+        object: 0,
+        material: 0,
+    };
+
+    fn of(shot: &Shot) -> Self {
+        let none = Self { distance: shot.distance, depth: shot.depth, ..Self::NONE };
+        let id = |index: Option<u32>| index.map_or(0, |index| index.saturating_add(1));
+        shot.hit.map_or(none, |hit| Self {
+            normal: hit.normal,
+            p: hit.p,
+            uv: hit.uv,
+            object: id(hit.object),
+            material: id(hit.material.map(|material| material.0)),
+            ..none
+        })
+    }
 }
 
 /// One finished sample of a pixel.
@@ -91,7 +119,7 @@ pub(crate) struct Shot {
     /// Whether the filter subtracts it.
     pub(crate) is_negative: bool,
     /// Squared distance from the centre of the pixel.
-    pub(crate) distance: f64,
+    pub(crate) distance: f32,
 }
 
 impl Shot {
@@ -173,9 +201,10 @@ impl Tile {
         !self.nearest.is_empty() || !self.positive.albedo.is_empty()
     }
 
-    /// The samples of a pass that this tile does not hold yet; they count as held from now on.
-    pub(crate) fn claim(&mut self, samples: &Range<u32>) -> Range<u32> {
-        let new = samples.start.max(self.next_sample)..samples.end;
+    /// The next samples of a pass that this tile does not hold yet, at most `most`; they count as held from now on.
+    pub(crate) fn claim(&mut self, samples: &Range<u32>, most: u32) -> Range<u32> {
+        let start = samples.start.max(self.next_sample);
+        let new = start..samples.end.min(start.saturating_add(most));
         if !new.is_empty() {
             self.samples += new.end - new.start;
             self.next_sample = new.end;
@@ -196,7 +225,7 @@ impl Tile {
         }
         // Ties go to the sample that came first.
         if let Some(nearest) = self.nearest.get_mut(i).filter(|nearest| shot.distance < nearest.distance) {
-            *nearest = Nearest { distance: shot.distance, depth: shot.depth, hit: shot.hit };
+            *nearest = Nearest::of(shot);
         }
     }
 
@@ -271,7 +300,7 @@ mod tests {
         }
     }
 
-    fn shot(value: f32, is_negative: bool, distance: f64) -> Shot {
+    fn shot(value: f32, is_negative: bool, distance: f32) -> Shot {
         Shot { radiance: Rgb::splat(value), alpha: 1.0, depth: value, hit: None, is_negative, distance }
     }
 
@@ -314,11 +343,13 @@ mod tests {
     fn samples_are_claimed_once() {
         let mut film = film(Filter::Box, 0.5);
         let tile = &mut film.tiles_mut()[0];
-        assert_eq!(tile.claim(&(0..4)), 0..4);
-        assert!(tile.claim(&(0..4)).is_empty());
-        assert_eq!(tile.claim(&(2..6)), 4..6);
-        assert!(tile.claim(&(0..3)).is_empty());
-        assert_eq!(tile.claim(&(10..12)), 10..12);
-        assert_eq!(film.samples(), (8, 8));
+        assert_eq!(tile.claim(&(0..4), 16), 0..4);
+        assert!(tile.claim(&(0..4), 16).is_empty());
+        assert_eq!(tile.claim(&(2..6), 16), 4..6);
+        assert!(tile.claim(&(0..3), 16).is_empty());
+        assert_eq!(tile.claim(&(10..14), 3), 10..13);
+        assert_eq!(tile.claim(&(10..14), 3), 13..14);
+        assert_eq!(tile.claim(&(u32::MAX - 1..u32::MAX), 3), u32::MAX - 1..u32::MAX);
+        assert_eq!(film.samples(), (11, 11));
     }
 }

@@ -106,24 +106,16 @@ fn data_channels() -> [DataChannel; 11] {
     let channel = |name, wanted, value| DataChannel { name, wanted, value };
     [
         channel("Z", |l| l.depth, |n| n.depth),
-        channel("N.X", |l| l.normal, |n| n.hit.map_or(0.0, |h| h.normal.x)),
-        channel("N.Y", |l| l.normal, |n| n.hit.map_or(0.0, |h| h.normal.y)),
-        channel("N.Z", |l| l.normal, |n| n.hit.map_or(0.0, |h| h.normal.z)),
-        channel("P.X", |l| l.position, |n| n.hit.map_or(0.0, |h| h.p.x)),
-        channel("P.Y", |l| l.position, |n| n.hit.map_or(0.0, |h| h.p.y)),
-        channel("P.Z", |l| l.position, |n| n.hit.map_or(0.0, |h| h.p.z)),
-        channel("UV.U", |l| l.uv, |n| n.hit.map_or(0.0, |h| h.uv.x)),
-        channel("UV.V", |l| l.uv, |n| n.hit.map_or(0.0, |h| h.uv.y)),
-        channel("object_id.Y", |l| l.object_id, |n| id_value(n.hit.and_then(|h| h.object))),
-        channel(
-            "material_id.Y",
-            |l| l.material_id,
-            |n| id_value(n.hit.and_then(|h| h.material).map(|m| m.0)),
-        ),
+        channel("N.X", |l| l.normal, |n| n.normal.x),
+        channel("N.Y", |l| l.normal, |n| n.normal.y),
+        channel("N.Z", |l| l.normal, |n| n.normal.z),
+        channel("P.X", |l| l.position, |n| n.p.x),
+        channel("P.Y", |l| l.position, |n| n.p.y),
+        channel("P.Z", |l| l.position, |n| n.p.z),
+        channel("UV.U", |l| l.uv, |n| n.uv.x),
+        channel("UV.V", |l| l.uv, |n| n.uv.y),
+        // Exact up to 2^24 objects.
+        channel("object_id.Y", |l| l.object_id, |n| n.object as f32),
+        channel("material_id.Y", |l| l.material_id, |n| n.material as f32),
     ]
-}
-
-/// Index + 1, 0 for none; exact up to 2^24.
-fn id_value(index: Option<u32>) -> f32 {
-    index.map_or(0.0, |index| index as f32 + 1.0)
 }

@@ -16,10 +16,13 @@ use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelI
 use std::ops::{AddAssign, Range};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 
+/// Samples per pixel that a tile takes before it looks whether the pass was cancelled.
+const CHUNK: u32 = 16;
+
 /// The caller's hand on a pass.
 #[derive(Clone, Copy)]
 pub struct Control<'a> {
-    /// Once true, tiles that have not begun are left out.
+    /// Once true, the pass ends within a few thousand camera rays per thread.
     pub cancel: &'a AtomicBool,
     /// Called after each tile, from any thread, several at once.
     pub on_tile: &'a (dyn Fn(TileDone) + Sync),
@@ -45,7 +48,7 @@ pub struct TileDone {
 /// How a pass ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PassOutcome {
-    /// Whether every tile has its samples. If not, the pass was cancelled: each tile holds all samples of the pass or none,
+    /// Whether every pixel has its samples. If not, the pass was cancelled: some tiles hold fewer samples than others,
     /// the film remains good for [`crate::Prepared::frame`], and the same pass again takes what is missing.
     pub finished: bool,
     /// Camera samples that the pass has added to the film.
@@ -92,10 +95,10 @@ pub(crate) fn run(
         // One tile at a time, so that one slow corner of the picture is shared by all threads.
         .with_max_len(1)
         .map(|tile| {
-            if control.cancel.load(Ordering::Relaxed) {
-                return Tally::default();
+            let (finished, tally) = shooter.fill(tile, samples, control.cancel);
+            if !finished {
+                return tally;
             }
-            let tally = shooter.fill(tile, samples);
             let rays = rays.fetch_add(tally.rays.total(), Ordering::Relaxed) + tally.rays.total();
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
             (control.on_tile)(TileDone { done, total, rays });
@@ -111,10 +114,23 @@ pub(crate) fn run(
 }
 
 impl Shooter<'_> {
-    /// Adds the samples that a tile does not hold yet.
-    fn fill(&self, tile: &mut Tile, samples: &Range<u32>) -> Tally {
+    /// Adds the samples that a tile does not hold yet; whether it got to the end of them.
+    fn fill(&self, tile: &mut Tile, samples: &Range<u32>, cancel: &AtomicBool) -> (bool, Tally) {
         let mut tally = Tally::default();
-        let samples = tile.claim(samples);
+        loop {
+            if cancel.load(Ordering::Relaxed) {
+                return (false, tally);
+            }
+            let chunk = tile.claim(samples, CHUNK);
+            if chunk.is_empty() {
+                return (true, tally);
+            }
+            self.fill_chunk(tile, &chunk, &mut tally);
+        }
+    }
+
+    /// Adds a few samples to every pixel of a tile.
+    fn fill_chunk(&self, tile: &mut Tile, samples: &Range<u32>, tally: &mut Tally) {
         let rect = tile.rect;
         let keeps_hits = tile.keeps_hits();
         let pixels = (rect.y0..rect.y1).flat_map(|y| (rect.x0..rect.x1).map(move |x| [x, y]));
@@ -129,7 +145,6 @@ impl Shooter<'_> {
                 }
             }
         }
-        tally
     }
 
     /// One sample of one pixel.
@@ -141,7 +156,7 @@ impl Shooter<'_> {
             depth: MISS_DEPTH,
             hit: None,
             is_negative: at.is_negative,
-            distance: at.offset.length_squared(),
+            distance: at.offset.length_squared() as f32,
         };
         let sampler = Sampler::new(self.seed, pixel, sample);
         let mut draws = sampler.fork(branch::CAMERA);

@@ -2,11 +2,13 @@
 
 mod formula;
 
-use formula::{assert_same_channels, frame, ground, light, pass, perspective, prepare, scene, small, value};
+use formula::{
+    assert_same_channels, crop, frame, ground, light, pass, perspective, prepare, scene, small, value,
+};
 use heliostat_render::Control;
 use heliostat_scene::camera::{Focus, FocusMethod};
 use heliostat_scene::settings::{Filter, Layers, PixelRect};
-use heliostat_scene::{Camera, Frame, RenderSettings, Rgb};
+use heliostat_scene::{Camera, RenderSettings, Rgb};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 const FILTERS: [(Filter, f32); 6] = [
@@ -25,17 +27,6 @@ fn all_layers() -> RenderSettings {
 fn focused(method: FocusMethod) -> Camera {
     let focus = Focus { distance: 6.0, lens_radius: 0.3, blades: 6, blade_rotation: 0.2, method };
     Camera { focus: Some(focus), ..perspective() }
-}
-
-fn crop(frame: &Frame, window: PixelRect) -> Frame {
-    let mut part = Frame { window, ..frame.clone() };
-    for channel in &mut part.channels {
-        channel.values = (window.y0..window.y1)
-            .flat_map(|y| (window.x0..window.x1).map(move |x| (x, y)))
-            .map(|(x, y)| value(frame, &channel.name, x, y))
-            .collect();
-    }
-    part
 }
 
 #[test]

@@ -7,6 +7,7 @@ use heliostat_render::{
     World,
 };
 use heliostat_scene::camera::Projection;
+use heliostat_scene::settings::PixelRect;
 use heliostat_scene::{Camera, Frame, MaterialId, Motion, RenderSettings, Rgb, Scene};
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
@@ -122,4 +123,16 @@ pub(crate) fn assert_same_channels(found: &Frame, want: &Frame, what: &str) {
             assert_eq!(a.to_bits(), b.to_bits(), "{what}: {} of pixel {i} is {a}, not {b}", found.name);
         }
     }
+}
+
+/// The part of a frame in a window.
+pub(crate) fn crop(frame: &Frame, window: PixelRect) -> Frame {
+    let mut part = Frame { window, ..frame.clone() };
+    for channel in &mut part.channels {
+        channel.values = (window.y0..window.y1)
+            .flat_map(|y| (window.x0..window.x1).map(move |x| (x, y)))
+            .map(|(x, y)| value(frame, &channel.name, x, y))
+            .collect();
+    }
+    part
 }
