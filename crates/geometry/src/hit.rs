@@ -77,7 +77,7 @@ pub struct Hit {
     pub at: SurfacePoint,
     /// Unit shading normal, on the same side as the geometric normal.
     pub ns: Vec3,
-    /// Surface parameters; in `[0, 1]` on analytic shapes, as given on meshes.
+    /// Surface parameters; in `[0, 1]` on analytic shapes (metres on the infinite plane), as given on meshes.
     pub uv: Vec2,
     /// Change of position per unit of `u`; may be zero at a pole or without texture coordinates.
     pub dpdu: Vec3,
