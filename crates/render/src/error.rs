@@ -3,6 +3,7 @@
 use crate::filter::MAX_RADIUS;
 use crate::world::WorldError;
 use heliostat_scene::settings::PixelRect;
+use heliostat_scene::validate::SceneIssue;
 use thiserror::Error;
 
 /// Most pixels of a picture.
@@ -71,18 +72,9 @@ pub enum RenderError {
         /// Cameras in the scene.
         count: usize,
     },
-    /// A number of the camera is not what it must be.
-    #[error("camera `{camera}`: {name} is {value}; it must be {range}")]
-    Camera {
-        /// Name of the camera.
-        camera: String,
-        /// What is wrong.
-        name: &'static str,
-        /// What it is.
-        value: f32,
-        /// What it must be.
-        range: &'static str,
-    },
+    /// Something in the scene means nothing: all that was found.
+    #[error("{}", summary(.0))]
+    Scene(Vec<SceneIssue>),
     /// The system does not have the memory for the film.
     #[error("a film of {} MiB does not fit into memory; render fewer pixels, a region at a time, or fewer layers", .bytes >> 20)]
     OutOfMemory {
@@ -95,4 +87,14 @@ pub enum RenderError {
     /// The scene could not be made ready.
     #[error(transparent)]
     World(#[from] WorldError),
+}
+
+/// The first issue, and how many there are besides.
+fn summary(issues: &[SceneIssue]) -> String {
+    let first = issues.first().map(ToString::to_string).unwrap_or_default();
+    match issues.len() {
+        0 | 1 => first,
+        2 => format!("{first} (and one more)"),
+        n => format!("{first} (and {} more)", n - 1),
+    }
 }

@@ -59,21 +59,21 @@ fn cameras_out_of_range_are_named_with_their_range() {
     let flat = DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(1.0, 1.0, 0.0)));
     let lost = DAffine3::from_translation(DVec3::new(0.0, f64::NAN, 0.0));
     let cases = [
-        (camera(Projection::Perspective { fov_y: 0.0 }), "between 0 and 180 degrees"),
-        (camera(Projection::Perspective { fov_y: 3.2 }), "between 0 and 180 degrees"),
-        (camera(Projection::Perspective { fov_y: f32::NAN }), "field of view"),
-        (camera(Projection::Orthographic { height: -1.0 }), "height is -1"),
-        (camera(Projection::Orthographic { height: f32::INFINITY }), "height is inf"),
-        (camera(Projection::Fisheye { fov: 7.0 }), "at most 360 degrees"),
-        (camera(Projection::Cylindrical { fov_x: 0.0, fov_y: 1.0 }), "horizontal"),
-        (camera(Projection::Cylindrical { fov_x: 1.0, fov_y: 4.0 }), "vertical"),
-        (focused(Focus { distance: 0.0, ..focus }), "focus distance is 0"),
-        (focused(Focus { distance: f32::INFINITY, ..focus }), "focus distance is inf"),
-        (focused(Focus { lens_radius: -0.1, ..focus }), "lens radius is -0.1"),
-        (focused(Focus { blades: 2, ..focus }), "number of blades is 2"),
+        (camera(Projection::Perspective { fov_y: 0.0 }), "between 0 and pi"),
+        (camera(Projection::Perspective { fov_y: 3.2 }), "between 0 and pi"),
+        (camera(Projection::Perspective { fov_y: f32::NAN }), "fov_y is not finite"),
+        (camera(Projection::Orthographic { height: -1.0 }), "height must be above 0, is -1"),
+        (camera(Projection::Orthographic { height: f32::INFINITY }), "height is not finite"),
+        (camera(Projection::Fisheye { fov: 7.0 }), "up to 2 pi, is 7"),
+        (camera(Projection::Cylindrical { fov_x: 0.0, fov_y: 1.0 }), "fov_x must be"),
+        (camera(Projection::Cylindrical { fov_x: 1.0, fov_y: 4.0 }), "fov_y must be"),
+        (focused(Focus { distance: 0.0, ..focus }), "focus distance must be above 0, is 0"),
+        (focused(Focus { distance: f32::INFINITY, ..focus }), "focus distance is not finite"),
+        (focused(Focus { lens_radius: -0.1, ..focus }), "lens radius must be at least 0"),
+        (focused(Focus { blades: 2, ..focus }), "blades must be 0 or at least 3, is 2"),
         (focused(Focus { blade_rotation: f32::NAN, ..focus }), "blade rotation"),
-        (posed(flat), "pose"),
-        (posed(lost), "pose"),
+        (posed(flat), "the determinant of the pose must be above 0"),
+        (posed(lost), "the pose is not finite"),
     ];
     for (camera, wanted) in cases {
         let message = refusal(&scene(camera), &small());
@@ -82,6 +82,14 @@ fn cameras_out_of_range_are_named_with_their_range() {
             "`{message}` lacks `{wanted}`"
         );
     }
+}
+
+#[test]
+fn a_scene_with_several_faults_names_the_first_and_counts_the_rest() {
+    let mut broken = scene(camera(Projection::Perspective { fov_y: 9.0 }));
+    broken.cameras.push(camera(Projection::Orthographic { height: 0.0 }));
+    let message = refusal(&broken, &small());
+    assert_eq!(message, "camera `main`: fov_y must be between 0 and pi, is 9 (and 2 more)");
 }
 
 #[test]

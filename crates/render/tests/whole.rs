@@ -39,7 +39,7 @@ fn room() -> Stage {
     let mesh = stage.mesh(ball_mesh(0.4, 8, true));
     stage.add(mesh, white(), at(0.6, 0.4, 0.9));
     let poses = vec![at(-0.2, 1.6, -0.5), at(0.3, 1.7, -0.5)];
-    stage.add(sphere(0.3), white(), at(0.0, 0.0, 0.0)).motion = Motion::through(poses).unwrap();
+    stage.add(sphere(0.3), white(), at(0.0, 0.0, 0.0)).motion = Motion::through(poses).expect("two poses");
     let focus =
         Focus { distance: 5.0, lens_radius: 0.05, blades: 6, blade_rotation: 0.0, method: FocusMethod::Lens };
     stage.scene.cameras.push(Camera {
@@ -88,7 +88,9 @@ fn every_integrator_keeps_the_promise() {
             assert_same_channels(&part, &crop(&whole, window), &what);
             let prepared = Prepared::with_cache(&scene, &settings, &mut TreeCache::default()).unwrap();
             let mut film = prepared.film();
-            (0..4).for_each(|sample| drop(pass(&prepared, &mut film, sample..sample + 1)));
+            for sample in 0..4 {
+                assert!(pass(&prepared, &mut film, sample..sample + 1).finished);
+            }
             assert_same_channels(&prepared.frame(&film), &whole, &what);
         }
     }

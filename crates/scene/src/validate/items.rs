@@ -194,7 +194,12 @@ fn check_direction(direction: Vec3, c: &mut Collector<'_>) {
 pub(super) fn cameras<'a>(scene: &'a Scene, c: &mut Collector<'a>) {
     for (i, camera) in scene.cameras.iter().enumerate() {
         c.turn_to_named(ItemKind::Camera, i, &camera.name);
-        c.finite("the pose", camera.motion.poses().iter().all(|pose| pose.is_finite()));
+        for pose in camera.motion.poses() {
+            c.finite("the pose", pose.is_finite());
+            c.number("the determinant of the pose", pose.matrix3.determinant() as f32, "above 0", |v| {
+                v > 0.0
+            });
+        }
         check_projection(camera, c);
         if let Some(focus) = &camera.focus {
             c.positive("the focus distance", focus.distance);
