@@ -90,8 +90,10 @@ fn the_same_frame_gives_the_same_bytes_on_any_threads() {
         for _ in 0..20 {
             assert!(encode(&frame, compression) == first, "{compression:?} differs from run to run");
         }
-        let serial = encode_exr(&frame, &ExrOptions { compression, parallel: false }).unwrap().0;
-        assert!(serial == first, "{compression:?} differs from thread to thread");
+        for threads in [1, 2, 3, 64] {
+            let bytes = encode_exr(&frame, &ExrOptions { compression, threads }).unwrap().0;
+            assert!(bytes == first, "{compression:?} differs with {threads} threads");
+        }
     }
 }
 

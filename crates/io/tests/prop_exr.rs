@@ -79,7 +79,7 @@ proptest! {
 
     #[test]
     fn reading_undoes_writing(frame in frame(), compression in compression()) {
-        let options = ExrOptions { compression, parallel: false };
+        let options = ExrOptions { compression, threads: 1 };
         let (bytes, report) = encode_exr(&frame, &options).unwrap();
         prop_assert_eq!(report, Default::default());
         let back = decode_exr(Path::new("a.exr"), &bytes, &Limits::default()).unwrap();
@@ -94,7 +94,7 @@ proptest! {
         flips in vec((any::<prop::sample::Index>(), 1..=255u8), 0..4),
         in_header in any::<bool>(),
     ) {
-        let options = ExrOptions { compression, parallel: false };
+        let options = ExrOptions { compression, threads: 1 };
         let (mut bytes, _) = encode_exr(&frame, &options).unwrap();
         let limits = Limits { side: 4096, bytes: 1 << 22 };
         let cut_file = &bytes[..cut.index(bytes.len())];

@@ -1,18 +1,13 @@
 //! A frame as the bytes of an OpenEXR file, the same bytes every time.
 //!
-//! The `exr` crate compresses the pixels and lays out the file; the header is then written anew with the entries of
-//! the frame, sorted by name, and the offsets of the blocks are moved by the difference in length.
+//! The `exr` crate lays out the file around the blocks of [`super::blocks`]; the header is then written anew with the
+//! entries of the frame, sorted by name, and the offsets of the blocks are moved by the difference in length.
 
 use super::attributes::{DEFAULTS, STRUCTURE, write};
 use super::header::{self, Attribute, LONGEST_NAME, serialize};
-use super::{Compression, ExrOptions, SaveReport, chromaticities};
-use exr::image::write::WritableImage;
-use exr::image::{AnyChannel, AnyChannels, Blocks, Encoding, FlatSamples, Image, Layer};
-use exr::math::Vec2;
-use exr::meta::attribute::{IntegerBounds, LineOrder, Text};
-use exr::meta::header::{ImageAttributes, LayerAttributes};
-use half::f16;
-use heliostat_scene::frame::{Channel, Depth, Frame, Meta};
+use super::{ExrOptions, SaveReport, blocks, chromaticities};
+use exr::block::writer::ChunksWriter;
+use heliostat_scene::frame::{Frame, Meta};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Cursor;
@@ -20,10 +15,15 @@ use std::io::Cursor;
 /// The bytes, and what had to be changed to store the values.
 pub(super) fn encode(frame: &Frame, options: &ExrOptions) -> Result<(Vec<u8>, SaveReport), String> {
     check(frame)?;
-    let mut report = SaveReport::default();
-    let channels = frame.channels.iter().map(|c| stored_channel(c, &mut report)).collect();
-    let body = encode_pixels(frame, AnyChannels::sort(channels), options)?;
-    Ok((with_entries(&body, &frame.meta)?, report))
+    let explain = |e: exr::error::Error| format!("cannot be encoded: {e}");
+    let (header, chunks, report) = blocks::compress(frame, options).map_err(explain)?;
+    let mut file = Vec::new();
+    exr::block::write(Cursor::new(&mut file), [header].into_iter().collect(), true, |_, writer| {
+        let mut chunks = chunks.into_iter().enumerate();
+        chunks.try_for_each(|(i, chunk)| writer.write_chunk(i, chunk))
+    })
+    .map_err(explain)?;
+    Ok((with_entries(&file, &frame.meta)?, report))
 }
 
 /// Checks what the file format demands of a frame.
@@ -60,63 +60,6 @@ fn check_name(name: &str) -> Result<(), String> {
         return Err(format!("{name:?} is no name for a channel or an entry"));
     }
     Ok(())
-}
-
-/// The values of a channel in the type of the file: no NaN, no infinity.
-fn stored_channel(channel: &Channel, report: &mut SaveReport) -> AnyChannel<FlatSamples> {
-    let largest = match channel.depth {
-        Depth::Half => f16::MAX.to_f32(),
-        Depth::Float => f32::MAX,
-    };
-    let mut finite = |v: f32| {
-        if v.is_nan() {
-            report.replaced += 1;
-            0.0
-        } else if v.abs() > largest {
-            *(if v.is_infinite() { &mut report.replaced } else { &mut report.clamped }) += 1;
-            largest.copysign(v)
-        } else {
-            v
-        }
-    };
-    let values = channel.values.iter();
-    let samples = match channel.depth {
-        Depth::Half => FlatSamples::F16(values.map(|v| f16::from_f32(finite(*v))).collect()),
-        Depth::Float => FlatSamples::F32(values.map(|v| finite(*v)).collect()),
-    };
-    AnyChannel::new(Text::from_slice_unchecked(channel.name.as_bytes()), samples)
-}
-
-/// A complete file with the attributes that describe the pixels, and no others.
-fn encode_pixels(
-    frame: &Frame,
-    channels: AnyChannels<FlatSamples>,
-    options: &ExrOptions,
-) -> Result<Vec<u8>, String> {
-    let window = frame.window;
-    let size = Vec2(window.width() as usize, window.height() as usize);
-    let attributes = LayerAttributes {
-        layer_position: Vec2(window.x0.cast_signed(), window.y0.cast_signed()),
-        ..LayerAttributes::default()
-    };
-    let compression = match options.compression {
-        Compression::None => exr::compression::Compression::Uncompressed,
-        Compression::Zips => exr::compression::Compression::ZIP1,
-        Compression::Zip => exr::compression::Compression::ZIP16,
-        Compression::Piz => exr::compression::Compression::PIZ,
-    };
-    // In any other order the blocks would lie as the threads finished.
-    let encoding = Encoding { compression, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
-    let display = IntegerBounds::new(Vec2(0, 0), Vec2(frame.width as usize, frame.height as usize));
-    let image = Image {
-        attributes: ImageAttributes::new(display),
-        layer_data: Layer::new(size, attributes, encoding, channels),
-    };
-    let mut bytes = Vec::new();
-    let image = image.write();
-    let image = if options.parallel { image } else { image.non_parallel() };
-    image.to_buffered(Cursor::new(&mut bytes)).map_err(|e| format!("cannot be encoded: {e}"))?;
-    Ok(bytes)
 }
 
 /// The same file with the entries of a frame in its header.

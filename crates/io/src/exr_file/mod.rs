@@ -7,11 +7,13 @@
 //! there. Nothing depends on time, place or threads: the same frame gives the same bytes.
 
 mod attributes;
+mod blocks;
 mod chromaticities;
 mod decode;
 mod encode;
 mod header;
 mod layout;
+mod zip;
 
 pub(crate) use header::MAGIC;
 
@@ -38,18 +40,12 @@ pub enum Compression {
 }
 
 /// How a frame is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ExrOptions {
     /// Compression of the pixels.
     pub compression: Compression,
-    /// Whether several threads compress; the bytes are the same.
-    pub parallel: bool,
-}
-
-impl Default for ExrOptions {
-    fn default() -> Self {
-        Self { compression: Compression::default(), parallel: true }
-    }
+    /// Threads that compress, 0 for all; the bytes are the same for any number.
+    pub threads: usize,
 }
 
 /// What had to be changed to store the values of a frame.
