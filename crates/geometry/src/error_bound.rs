@@ -123,18 +123,19 @@ pub fn sheared_corner(reach: f32) -> f32 {
     gamma(6) * reach
 }
 
-/// Bound, in lengths, of how far beside the true ray the rounded one may seem to run where it is compared with planes
-/// and triangles. `reach` is the largest coordinate of the scene plus that of the ray's origin, by magnitude.
+/// Bound, in lengths, of how far beside the true ray the rounded one may seem to run where it is compared with a plane,
+/// or a triangle, up to `distance` from its origin. `size` is the size of the triangle. Linear in both.
 ///
-/// All terms are relative to a distance along one axis, which is at most `reach`: the distance to a plane,
-/// `(plane - origin) * (1 / dir)`, has 3 roundings, its growth by this bound 2 more, and the distance of a hit is rounded
-/// once. The watertight triangle test sees its corners displaced by [`sheared_corner`], and reports a distance within as much
-/// of the place where it saw the hit.
+/// Distances and sizes are the largest along one axis; no other coordinates matter, because floats are given and
+/// subtracted exactly but for one rounding of the difference. The distance to a plane, `(plane - origin) * (1 / dir)`, has
+/// 3 roundings, its growth by this bound 2 more, and the distance of a hit is rounded once. The watertight triangle
+/// test sees its corners, up to `distance + size` away, displaced by [`sheared_corner`], and reports a distance
+/// within as much of the place where it saw the hit.
 ///
 /// # Source
 /// Higham, "Accuracy and Stability of Numerical Algorithms", 2nd edition, section 3.1, applied to the terms above.
-pub fn cell_padding(reach: f32) -> f32 {
-    gamma(6) * reach + 2.0 * sheared_corner(reach) + f32::MIN_POSITIVE
+pub fn cell_padding(distance: f32, size: f32) -> f32 {
+    gamma(6) * distance + 2.0 * sheared_corner(distance + size)
 }
 
 /// Bound of the error, per axis, of a corner that comes from cutting a triangle in `f64` by up to six planes one after

@@ -46,7 +46,7 @@ impl ReferenceBvh {
         let (refs, unbounded) = gather(primitives)?;
         let around = refs.iter().fold(Aabb::EMPTY, |around, r| around.union(r.bounds));
         let extent = if refs.is_empty() { 0.0 } else { around.min.abs().max(around.max.abs()).max_element() };
-        let margin = Vec3::splat(cell_padding(2.0 * extent));
+        let margin = Vec3::splat(cell_padding(12.0 * extent, extent));
         let boxes: Vec<obvhs::aabb::Aabb> = refs
             .iter()
             .map(|r| {

@@ -1,11 +1,14 @@
 //! Input that breaks builders: nothing, next to nothing, too much in one place, and what is no number.
 
+#![expect(clippy::unwrap_used, reason = "tests fail by panicking")]
+
 use glam::Vec3;
 use heliostat_geometry::{Aabb, Interval, Ray, TriMesh};
 use heliostat_index::bsp::params::MAX_DEPTH;
 use heliostat_index::mesh_tree::brute_force;
 use heliostat_index::{
-    BspTree, BuildError, BuildParams, ExportWhat, MeshTree, RayIndex, SahCosts, SplitRule, export_obj,
+    BspTree, BuildError, BuildParams, ExportWhat, MeshTree, RayIndex, SahCosts, SplitRule, TraversalCost,
+    export_obj,
 };
 
 const PRESETS: [BuildParams; 2] = [BuildParams::MIDPOINT, BuildParams::SAH];
@@ -181,6 +184,33 @@ fn one_huge_triangle_among_tiny_ones() {
         .map(|i| Ray::new(Vec3::new(0.1 + (i % 40) as f32, 0.1 + (i / 16) as f32, 50.0), Vec3::NEG_Z))
         .collect();
     assert_agrees(&mesh, &rays);
+}
+
+#[test]
+fn one_huge_triangle_does_not_blur_the_others() {
+    // A sheet of millimetres, alone and above a floor of a thousand kilometres.
+    let corner = |i: u32| Vec3::new(1e-3 * (i % 80) as f32, 0.5, 1e-3 * (i / 80) as f32);
+    let mut positions: Vec<Vec3> = (0..6400).map(corner).collect();
+    positions.extend([Vec3::new(-1e6, 0.0, -1e6), Vec3::new(1e6, 0.0, -1e6), Vec3::new(0.0, 0.0, 2e6)]);
+    let cells = (0..6320_u32).filter(|i| i % 80 != 79);
+    let sheet: Vec<[u32; 3]> = cells.flat_map(|i| [[i, i + 80, i + 1], [i + 1, i + 80, i + 81]]).collect();
+    let alone = mesh(positions.clone(), sheet.clone());
+    let with_floor = mesh(positions, [sheet, vec![[6400, 6402, 6401]]].concat());
+
+    let tests = |mesh: &TriMesh| {
+        let tree = MeshTree::build(mesh, &BuildParams::SAH).unwrap();
+        let mut cost = TraversalCost::default();
+        for i in 0..1000 {
+            let target = Vec3::new(0.078 * (0.618 * i as f32).fract(), 0.5, 0.078 * i as f32 / 1000.0);
+            let ray = Ray::new(Vec3::new(0.04, 0.6, -0.02), target - Vec3::new(0.04, 0.6, -0.02));
+            assert_eq!(tree.closest_hit_counted(mesh, &ray, &mut cost), brute_force(mesh, &ray));
+        }
+        cost.tests
+    };
+    let (few, more) = (tests(&alone), tests(&with_floor));
+    // The error of the floor's own corners reaches the sheet: each cell knows it, and so it is tested now and then. Blurred
+    // cells would cost thousands of tests for each ray.
+    assert!(more < 5 * few, "{more} tests with the floor, {few} without");
 }
 
 #[test]

@@ -2,6 +2,8 @@
 //!
 //! `HELIOSTAT_DEEP=N` traces N rays through each mesh instead of a few hundred.
 
+#![expect(clippy::unwrap_used, reason = "tests fail by panicking")]
+
 mod support;
 
 use heliostat_index::verify::{Agreement, Verifier};
@@ -43,6 +45,10 @@ fn run(verifier: &Verifier<'_>, rays: u64) -> Agreement {
 fn trees_of_every_model_are_valid_and_bounded() {
     for path in support::obj_files() {
         let mesh = support::read_obj(&path);
+        // Clipping every triangle against every leaf takes its time.
+        if mesh.triangles.len() as u64 > rays(30_000) {
+            continue;
+        }
         for (preset, params) in PRESETS {
             let tree = MeshTree::build(&mesh, &params).unwrap();
             tree.tree().validate(&mesh).unwrap();

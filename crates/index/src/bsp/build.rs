@@ -4,13 +4,13 @@
 //! other; the side on top is finished first and then dropped. So memory is bounded by the references alive at once.
 
 use super::BspTree;
+use super::blur::{Blur, grow};
 use super::node::{MAX_TAG, Node};
 use super::params::{BuildError, BuildParams, SplitRule};
 use super::sah::{self, Scratch};
 use super::split::{Plane, Reference, Side};
 use crate::primitives::Primitives;
 use heliostat_geometry::Aabb;
-use heliostat_geometry::error_bound::cell_padding;
 use std::time::Instant;
 
 /// How many splits in a row may bring nothing before a cell is left as it is.
@@ -43,8 +43,7 @@ struct Decision {
 struct Builder<'a, P: ?Sized> {
     primitives: &'a P,
     params: &'a BuildParams,
-    /// A cell thinner than this is not cut: the walk could not tell its parts from each other.
-    thinnest: f32,
+    blur: Blur,
     nodes: Vec<Node>,
     leaf_refs: Vec<u32>,
     arena: Vec<Reference>,
@@ -61,14 +60,17 @@ pub(crate) fn build<P: Primitives + ?Sized>(
 ) -> Result<BspTree, BuildError> {
     let begin = Instant::now();
     params.check()?;
-    let (arena, unbounded) = gather(primitives)?;
+    let (mut arena, unbounded) = gather(primitives)?;
+    let blur = Blur::of(&arena);
+    for reference in &mut arena {
+        reference.bounds = blur.grown(reference.bounds);
+    }
     let bounds = arena.iter().fold(Aabb::EMPTY, |around, r| around.union(r.bounds));
-    let extent = if arena.is_empty() { 0.0 } else { bounds.min.abs().max(bounds.max.abs()).max_element() };
 
     let mut builder = Builder {
         primitives,
         params,
-        thinnest: cell_padding(2.0 * extent),
+        blur,
         nodes: vec![Node::EMPTY],
         leaf_refs: Vec::with_capacity(arena.len()),
         arena,
@@ -86,7 +88,8 @@ pub(crate) fn build<P: Primitives + ?Sized>(
         leaf_refs,
         unbounded,
         bounds,
-        extent,
+        blur,
+        slack: blur.slack(),
         depth,
         params: *params,
         primitives: primitives.len() as u32,
@@ -144,7 +147,8 @@ impl<P: Primitives + ?Sized> Builder<'_, P> {
         let refs = &self.arena[task.start..];
         let splittable = refs.len() > self.params.leaf_limit as usize
             && task.depth < self.params.max_depth
-            && task.cell.size().max_element() > self.thinnest;
+            // In a thinner one, the walk could not tell the parts from each other.
+            && task.cell.size().max_element() > 2.0 * self.blur.slack();
         if !splittable {
             return None;
         }
@@ -230,8 +234,10 @@ impl<P: Primitives + ?Sized> Builder<'_, P> {
                 if !self.params.clip {
                     return (Some(left), Some(right));
                 }
+                let margin = self.blur.margin(self.primitives.bounds(reference.primitive));
                 let clipped = |side: Aabb| {
-                    let part = self.primitives.clipped_bounds(reference.primitive, side).intersect(side);
+                    let part = self.primitives.clipped_bounds(reference.primitive, grow(side, margin));
+                    let part = grow(part, margin).intersect(side);
                     (!part.is_empty()).then_some(part)
                 };
                 match (clipped(left), clipped(right)) {

@@ -9,6 +9,7 @@
 //! [`params`] says how a tree is built, `build` does it, with the planes that `split` and `sah` choose; `traverse`
 //! walks a ray through it. [`stats`], [`validate`] and [`export`] look at the result.
 
+mod blur;
 pub(crate) mod build;
 pub mod export;
 mod node;
@@ -28,6 +29,7 @@ pub use validate::InvalidTree;
 
 use crate::primitives::Primitives;
 use crate::query::{Found, Nearest, RayIndex};
+use blur::Blur;
 use heliostat_geometry::{Aabb, Ray};
 use node::{Kind, Node};
 use traverse::{Counter, Uncounted};
@@ -44,8 +46,10 @@ pub struct BspTree {
     unbounded: Vec<u32>,
     /// The root's cell: around all bounded primitives.
     bounds: Aabb,
-    /// Largest magnitude of a coordinate of `bounds`.
-    extent: f32,
+    /// How sizes and coordinates blur what a cell holds.
+    blur: Blur,
+    /// [`Blur::slack`].
+    slack: f32,
     depth: u32,
     params: BuildParams,
     primitives: u32,
@@ -69,7 +73,8 @@ impl BspTree {
         build::build(primitives, params)
     }
 
-    /// The box around all primitives whose boxes are finite; empty when there are none.
+    /// The box around all primitives whose boxes are finite, grown by rounding where one is much larger than the
+    /// others; empty when there are none.
     pub fn bounds(&self) -> Aabb {
         self.bounds
     }

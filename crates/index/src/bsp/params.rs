@@ -54,13 +54,13 @@ pub struct BuildParams {
 
 impl SahCosts {
     /// Measured: a test of a triangle takes about as long as two steps.
-    pub const DEFAULT: Self = Self { traversal: 1.0, intersection: 2.0, empty_bonus: 0.2 };
+    pub const DEFAULT: Self = Self { traversal: 1.0, intersection: 2.0, empty_bonus: 0.1 };
 }
 
 impl BuildParams {
     /// The classic build: halve the longest edge until few primitives are left.
     pub const MIDPOINT: Self =
-        Self { split: SplitRule::Midpoint, leaf_limit: 8, max_depth: 40, max_duplication: 24.0, clip: true };
+        Self { split: SplitRule::Midpoint, leaf_limit: 8, max_depth: 40, max_duplication: 16.0, clip: true };
 
     /// The build for speed: the surface area heuristic over clipped boxes.
     pub const SAH: Self = Self {

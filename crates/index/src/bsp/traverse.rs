@@ -9,6 +9,11 @@
 //!   plane is an interval, grown by the rounding of everything that leads to it, and a child is left out only when
 //!   the ray's part of the cell lies wholly on the other side of that interval.
 //!
+//! How wide the interval must be depends on how far the ray has come, and on the size of what it may meet there. The
+//! first is known on the way; for the second the tree has a constant, `slack`, and the few primitives that are larger than
+//! it allows for are known to every cell within the error of their own size: so one huge triangle does not blur
+//! the cells of all small ones.
+//!
 //! The near child is chosen by the sign bit of the direction, never by comparing the origin with the plane.
 //!
 //! # Source
@@ -65,42 +70,69 @@ struct RayAxis {
     inverse: f32,
     /// Growth of a distance, both ways.
     padding: f32,
+    /// More growth, for each unit of distance up to which rounding counts.
+    growth: f32,
     /// 1 when the ray runs downward: then the right child is the near one.
     near: u32,
 }
 
 impl RayAxis {
-    /// Distances between which the ray passes `plane`. NaN ends mean that nothing is known.
+    /// The distance of `plane`, before rounding is allowed for.
     #[inline]
-    fn crossing(self, plane: f32) -> Interval {
-        let t = (plane - self.origin) * self.inverse;
-        Interval { min: t - self.padding, max: t + self.padding }
+    fn distance(self, plane: f32) -> f32 {
+        (plane - self.origin) * self.inverse
+    }
+
+    /// Distances between which the ray passes `plane`, as far as distances up to `reach` matter. NaN ends mean that
+    /// nothing is known.
+    #[inline]
+    fn crossing(self, plane: f32, reach: f32) -> Interval {
+        let t = self.distance(plane);
+        let padding = self.padding + self.growth * reach;
+        Interval { min: t - padding, max: t + padding }
     }
 }
 
-/// Per-ray constants; the fourth axis makes any two-bit index valid.
-struct RayAxes([RayAxis; 4]);
+/// Per-ray constants.
+struct RayAxes {
+    /// The fourth makes any two-bit index valid.
+    axes: [RayAxis; 4],
+    /// The axis along which the ray runs fastest.
+    main: usize,
+}
 
 impl RayAxes {
-    fn new(ray: &Ray, extent: f32) -> Self {
+    fn new(ray: &Ray, slack: f32) -> Self {
         let inverse = inverse_direction(ray.dir);
-        let padding = cell_padding(extent + ray.origin.abs().max_element());
+        let growth = cell_padding(ray.dir.abs().max_element(), 0.0);
         let axis = |a: usize| RayAxis {
             origin: ray.origin[a],
             inverse: inverse[a],
-            padding: padding * inverse[a].abs(),
+            padding: slack * inverse[a].abs(),
+            growth: growth * inverse[a].abs(),
             near: u32::from(inverse[a].is_sign_negative()),
         };
-        Self([axis(0), axis(1), axis(2), RayAxis::default()])
+        Self { axes: [axis(0), axis(1), axis(2), RayAxis::default()], main: ray.dir.abs().max_position() }
     }
 
     /// The part of `range` inside `bounds`; empty when there is none. A NaN distance cuts off nothing.
-    fn clip(&self, bounds: Aabb, range: Interval) -> Interval {
+    fn clip(&mut self, bounds: Aabb, range: Interval) -> Interval {
+        // Along its main axis the ray leaves the box for good: what may be met lies before, and rounding counts up to there.
+        let main = self.main;
+        let far = if self.axes[main].near == 0 { bounds.max[main] } else { bounds.min[main] };
+        let reach = self.axes[main].distance(far).min(range.max).max(0.0);
+
         let mut part = range;
-        for (a, axis) in self.0.iter().take(3).enumerate() {
-            let (low, high) = (axis.crossing(bounds.min[a]), axis.crossing(bounds.max[a]));
+        for (a, axis) in self.axes[..3].iter().enumerate() {
+            let (low, high) = (axis.crossing(bounds.min[a], reach), axis.crossing(bounds.max[a], reach));
             let (enter, leave) = if axis.near == 0 { (low.min, high.max) } else { (high.min, low.max) };
             part = Interval { min: part.min.max(enter), max: part.max.min(leave) };
+        }
+
+        // The walk allows for rounding up to the end of the part at hand. Where a ray looks backward, its start may be farther.
+        let backward = (-part.min).max(0.0);
+        for axis in &mut self.axes {
+            axis.padding += axis.growth * backward;
         }
         part
     }
@@ -128,8 +160,8 @@ impl BspTree {
         if self.leaf_refs.is_empty() {
             return;
         }
-        let axes = RayAxes::new(ray, self.extent);
-        let mut part = axes.clip(self.bounds, Interval { max: limit, ..ray.range });
+        let mut ray_axes = RayAxes::new(ray, self.slack);
+        let mut part = ray_axes.clip(self.bounds, Interval { max: limit, ..ray.range });
         if part.is_empty() {
             return;
         }
@@ -140,8 +172,8 @@ impl BspTree {
             match self.nodes[node as usize].kind() {
                 Kind::Inner { axis, split, left } => {
                     counter.node();
-                    let axis = &axes.0[axis & 3];
-                    let crossing = axis.crossing(split);
+                    let axis = &ray_axes.axes[axis & 3];
+                    let crossing = axis.crossing(split, part.max);
                     let (near, far) = (left + axis.near, left + 1 - axis.near);
                     // Written so that a NaN leads into both children.
                     if crossing.min > part.max {

@@ -7,7 +7,6 @@ use super::{BspTree, Place};
 use crate::primitives::Primitives;
 use glam::Vec3;
 use heliostat_geometry::Aabb;
-use heliostat_geometry::error_bound::clipped_corner;
 use std::fmt;
 
 /// A promise that a tree breaks. Each message names the node or the primitive.
@@ -150,7 +149,7 @@ impl BspTree {
                     return broken(format!("leaf {number} names primitive {primitive} twice"));
                 }
                 *last = number + 1;
-                if primitives.bounds(primitive).intersect(cell).is_empty() {
+                if self.blur.grown(primitives.bounds(primitive)).intersect(cell).is_empty() {
                     return broken(format!(
                         "leaf {number} names primitive {primitive}, which lies elsewhere"
                     ));
@@ -205,7 +204,7 @@ impl BspTree {
     /// A primitive that only touches a plane may belong to the other side; one that lies flat in a plane belongs to the side
     /// below, which at the lower border of the root is the root's own.
     fn interior(&self, cell: Aabb, bounds: Aabb) -> Aabb {
-        let margin = clipped_corner(self.extent);
+        let margin = self.blur.clipping;
         let low = |axis: usize| {
             let is_flat = bounds.min[axis] == bounds.max[axis];
             let is_border = cell.min[axis] == self.bounds.min[axis];
