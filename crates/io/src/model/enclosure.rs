@@ -1,9 +1,10 @@
 //! Boxes that are open to one side and meant to be looked into, as the Cornell box is.
 
-use super::doubled_areas;
+use super::shaded_areas;
 use glam::{DVec3, Vec3};
-use heliostat_geometry::{Aabb, TriMesh};
-use std::sync::Arc;
+use heliostat_geometry::Aabb;
+use heliostat_scene::material::Surface;
+use heliostat_scene::{Material, Scene};
 
 /// A triangle lies in a side of the box when its corners are at most this part of the box away from it.
 const DEPTH: f32 = 0.06;
@@ -16,8 +17,8 @@ const OPEN: f64 = 0.1;
 
 /// The outward direction of the one open side, when the other five of the model's box are walls; front before back before
 /// right before left. A box open to the top is a vessel, to be seen from outside.
-pub(super) fn open_side(meshes: &[Arc<TriMesh>], bounds: Aabb) -> Option<DVec3> {
-    let covered = covered_shares(meshes, bounds);
+pub(super) fn open_side(scene: &Scene, bounds: Aabb) -> Option<DVec3> {
+    let covered = covered_shares(scene, bounds);
     let sides = [(2, 1), (2, 0), (0, 1), (0, 0)];
     sides.into_iter().find_map(|(axis, end)| {
         let is_open = covered[axis][end] <= OPEN;
@@ -28,15 +29,15 @@ pub(super) fn open_side(meshes: &[Arc<TriMesh>], bounds: Aabb) -> Option<DVec3> 
     })
 }
 
-/// The share of each side of the box, by axis and end, that triangles in it cover.
-fn covered_shares(meshes: &[Arc<TriMesh>], bounds: Aabb) -> [[f64; 2]; 3] {
+/// The share of each side of the box, by axis and end, that opaque triangles in it cover.
+fn covered_shares(scene: &Scene, bounds: Aabb) -> [[f64; 2]; 3] {
     let mut covered = [[0.0; 2]; 3];
     let size = bounds.size();
     let sides = [size.y * size.z, size.z * size.x, size.x * size.y].map(f64::from);
     if size.min_element() <= 0.0 {
         return covered;
     }
-    for (corners, area) in meshes.iter().flat_map(|mesh| doubled_areas(mesh)) {
+    for (_, corners, area) in shaded_areas(scene).filter(|(material, ..)| is_opaque(material)) {
         let inward = |end: Vec3, axis: usize, p: Vec3| (p[axis] - end[axis]).abs() / size[axis];
         for axis in 0..3 {
             for (end, corner) in [bounds.min, bounds.max].into_iter().enumerate() {
@@ -49,12 +50,23 @@ fn covered_shares(meshes: &[Arc<TriMesh>], bounds: Aabb) -> [[f64; 2]; 3] {
     covered
 }
 
+/// Glass and water are no walls.
+fn is_opaque(material: &Material) -> bool {
+    let Surface::Phong(phong) = &material.surface;
+    phong.transparency.is_zero() && material.opacity.factor >= 1.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use heliostat_geometry::{Transform, TriMesh};
+    use heliostat_scene::material::Phong;
+    use heliostat_scene::object::Geometry;
+    use heliostat_scene::{MaterialId, MeshId, Motion, Object};
+    use std::sync::Arc;
 
     /// The sides of a box as a mesh, without those whose outward direction is in `open`.
-    fn room(open: &[Vec3], size: Vec3, at: Vec3) -> Vec<Arc<TriMesh>> {
+    fn room(open: &[Vec3], size: Vec3, at: Vec3) -> Scene {
         let mut mesh = TriMesh::default();
         for axis in 0..3 {
             for end in [-0.5, 0.5] {
@@ -69,11 +81,21 @@ mod tests {
                 mesh.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
             }
         }
-        vec![Arc::new(mesh)]
+        let material = Material::new("wall", Phong::default());
+        let object = Object {
+            name: "room".to_owned(),
+            geometry: Geometry::Mesh(MeshId(0)),
+            materials: vec![MaterialId(0)],
+            motion: Motion::still(Transform::IDENTITY),
+            visible: true,
+            casts_shadow: true,
+        };
+        let meshes = vec![Arc::new(mesh)];
+        Scene { meshes, materials: vec![material], objects: vec![object], ..Scene::default() }
     }
 
-    fn open_side_of(meshes: &[Arc<TriMesh>]) -> Option<DVec3> {
-        open_side(meshes, meshes[0].bounds())
+    fn open_side_of(scene: &Scene) -> Option<DVec3> {
+        open_side(scene, scene.meshes[0].bounds())
     }
 
     #[test]

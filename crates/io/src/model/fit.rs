@@ -1,9 +1,7 @@
-//! Where to look from, and the smallest distance from which everything is in the picture.
+//! The smallest distance from which everything is in the picture.
 
-use super::mean_normal;
+use super::stance::Stance;
 use glam::{DAffine3, DMat3, DVec3};
-use heliostat_geometry::{Aabb, TriMesh};
-use std::sync::Arc;
 
 /// Share of the picture's half width and height that stays free at its border.
 const MARGIN: f64 = 0.06;
@@ -11,42 +9,32 @@ const MARGIN: f64 = 0.06;
 /// A direction to look from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct View {
-    /// Unit vector from the model to the camera; never straight up.
+    /// Unit vector from the model to the camera; not along `up`.
     pub(super) back: DVec3,
+    /// Unit vector that is up in the picture.
+    pub(super) up: DVec3,
     /// Angle between the upper and the lower border in radians.
     pub(super) fov_y: f64,
 }
 
 impl View {
-    /// Three quarters from the front, a little from above; flat models from the side that they show.
-    pub(super) fn from_outside(meshes: &[Arc<TriMesh>], bounds: Aabb) -> Self {
-        /// A model thinner than this part of its longest side is flat.
-        const FLAT: f32 = 0.05;
-        let size = bounds.size();
-        let is_flat = |axis: usize| size[axis] < FLAT * size.max_element();
-        let facing = |axis: usize| if mean_normal(meshes)[axis] < 0.0 { -1.0_f64 } else { 1.0 };
-        let (front, elevation) = if is_flat(1) {
-            (0.0, 40_f64)
-        } else if is_flat(0) {
-            (90.0 * facing(0), 15.0)
-        } else if is_flat(2) && facing(2) < 0.0 {
-            (180.0, 15.0)
-        } else {
-            (0.0, 15.0)
-        };
-        let (sin_azimuth, cos_azimuth) = (front + 30_f64).to_radians().sin_cos();
-        let (sin, cos) = elevation.to_radians().sin_cos();
-        Self { back: DVec3::new(sin_azimuth * cos, sin, cos_azimuth * cos), fov_y: 30_f64.to_radians() }
+    /// Three quarters from the front, from somewhat above.
+    pub(super) fn three_quarters(stance: &Stance) -> Self {
+        let (sin_azimuth, cos_azimuth) = 30_f64.to_radians().sin_cos();
+        let (sin, cos) = stance.elevation.sin_cos();
+        let side = stance.up.cross(stance.front);
+        let level = cos_azimuth * stance.front + sin_azimuth * side;
+        Self { back: cos * level + sin * stance.up, up: stance.up, fov_y: 30_f64.to_radians() }
     }
 
     /// Straight in through the open side of a box, whose outward direction is `out`.
     pub(super) fn into(out: DVec3) -> Self {
-        Self { back: out, fov_y: 40_f64.to_radians() }
+        Self { back: out, up: DVec3::Y, fov_y: 40_f64.to_radians() }
     }
 
     /// The axes of the camera: right, up, back.
     pub(super) fn axes(&self) -> DMat3 {
-        let right = DVec3::Y.cross(self.back).normalize_or(DVec3::X);
+        let right = self.up.cross(self.back).normalize_or(DVec3::X);
         DMat3::from_cols(right, self.back.cross(right), self.back)
     }
 }
@@ -84,7 +72,7 @@ pub(super) fn fit(points: impl Iterator<Item = DVec3>, view: &View, aspect: f64)
 mod tests {
     use super::*;
 
-    const VIEW: View = View { back: DVec3::new(0.48, 0.6, 0.64), fov_y: 0.5 };
+    const VIEW: View = View { back: DVec3::new(0.48, 0.6, 0.64), up: DVec3::Y, fov_y: 0.5 };
 
     /// Where the points lie in the picture, in half heights from its middle.
     fn seen(points: &[DVec3], pose: &DAffine3) -> Vec<(f64, f64)> {

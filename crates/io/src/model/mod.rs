@@ -6,6 +6,7 @@
 mod enclosure;
 mod fit;
 mod rig;
+mod stance;
 
 use crate::error::{LoadError, Warning};
 use crate::obj::{ObjModel, ObjOptions, Placement, load_obj};
@@ -16,9 +17,9 @@ use glam::{DVec3, Vec3};
 use heliostat_geometry::{Aabb, TriMesh};
 use heliostat_scene::camera::Projection;
 use heliostat_scene::object::Geometry;
-use heliostat_scene::{Camera, Material, Motion, Object, Scene};
+use heliostat_scene::{Camera, Material, Motion, Scene};
+use stance::stance;
 use std::path::Path;
-use std::sync::Arc;
 
 /// The name of the camera that sees all of a lone model.
 pub const FITTED_CAMERA: &str = "fitted";
@@ -62,8 +63,8 @@ pub fn scene_of(model: &ObjModel, name: &str, aspect: f32) -> Scene {
     }
     let meshes = scene.meshes.clone();
     let bounds = meshes.iter().fold(Aabb::EMPTY, |all, mesh| all.union(mesh.bounds()));
-    let inside = open_side(&meshes, bounds);
-    let view = inside.map_or_else(|| View::from_outside(&meshes, bounds), View::into);
+    let inside = open_side(&scene, bounds);
+    let view = inside.map_or_else(|| View::three_quarters(&stance(&meshes, bounds)), View::into);
     let points = meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| p.as_dvec3());
     scene.cameras.push(Camera {
         name: FITTED_CAMERA.to_owned(),
@@ -75,11 +76,6 @@ pub fn scene_of(model: &ObjModel, name: &str, aspect: f32) -> Scene {
     scene
 }
 
-/// Sum over all triangles of twice their area times their normal.
-fn mean_normal(meshes: &[Arc<TriMesh>]) -> DVec3 {
-    meshes.iter().flat_map(|mesh| doubled_areas(mesh)).map(|(_, normal)| normal).sum()
-}
-
 /// Corners of each triangle, and twice its area times its normal.
 fn doubled_areas(mesh: &TriMesh) -> impl Iterator<Item = ([Vec3; 3], DVec3)> {
     (0..mesh.triangles.len() as u32).map(|i| {
@@ -89,16 +85,18 @@ fn doubled_areas(mesh: &TriMesh) -> impl Iterator<Item = ([Vec3; 3], DVec3)> {
     })
 }
 
-/// The triangles of an object with their materials: the same as [`doubled_areas`] beside the material.
-fn shaded_areas<'s>(scene: &'s Scene, object: &'s Object) -> impl Iterator<Item = (&'s Material, DVec3)> {
-    let mesh = match object.geometry {
-        Geometry::Mesh(id) => scene.meshes.get(id.index()),
-        Geometry::Shape(_) => None,
-    };
-    mesh.into_iter().flat_map(move |mesh| {
-        (0..).zip(doubled_areas(mesh)).map(move |(i, (_, area))| {
-            let material = object.material(mesh.slot(i));
-            (&scene.materials[material.index()], area)
+/// As [`doubled_areas`] for all objects of the scene, which stand where they were made, beside their materials.
+fn shaded_areas(scene: &Scene) -> impl Iterator<Item = (&Material, [Vec3; 3], DVec3)> {
+    scene.objects.iter().flat_map(move |object| {
+        let mesh = match object.geometry {
+            Geometry::Mesh(id) => scene.meshes.get(id.index()),
+            Geometry::Shape(_) => None,
+        };
+        mesh.into_iter().flat_map(move |mesh| {
+            (0..).zip(doubled_areas(mesh)).map(move |(i, (corners, area))| {
+                let material = object.material(mesh.slot(i));
+                (&scene.materials[material.index()], corners, area)
+            })
         })
     })
 }

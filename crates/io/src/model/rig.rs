@@ -23,33 +23,27 @@ pub(super) fn light(scene: &mut Scene, bounds: Aabb, view: &View, is_inside: boo
         // What walls of a third reflectance throw at each other: r / (1 - r) of the first light, taken as even.
         // Cohen et al., "A Progressive Refinement Approach to Fast Radiosity Image Generation", 1988, section 4.
         scene.lights = vec![ambient(0.5 * own)];
-        scene.background = if is_inside { Background::default() } else { backdrop(0.1) };
+        scene.background = if is_inside { Background::default() } else { backdrop(0.1, view) };
     } else if is_inside {
         scene.lights = vec![ambient(Rgb::splat(0.2)), ceiling(bounds)];
     } else {
         let from = |x: f64, y: f64, z: f64| (view.axes() * DVec3::new(x, y, z)).as_vec3();
         scene.lights = vec![
-            ambient(Rgb::splat(0.2)),
-            distant("key", 0.75, from(-0.6, 0.9, 0.8)),
-            distant("fill", 0.15, from(1.0, 0.1, 0.6)),
+            ambient(Rgb::splat(0.12)),
+            distant("key", 0.85, from(-0.8, 0.9, 0.6)),
+            distant("fill", 0.15, from(1.0, 0.2, 0.5)),
         ];
-        scene.background = backdrop(1.0);
+        scene.background = backdrop(1.0, view);
     }
 }
 
 /// Irradiance that the emitters of the model would give the inside of its box if they lit it evenly.
 fn own_irradiance(scene: &Scene, bounds: Aabb) -> Rgb {
-    let shining = |surface: &Surface| {
-        let Surface::Phong(phong) = surface;
-        phong.emission.factor
-    };
     let mut flux = Rgb::ZERO;
-    for object in &scene.objects {
-        for (material, doubled_area) in shaded_areas(scene, object) {
-            let emission = shining(&material.surface);
-            if emission != Rgb::ZERO {
-                flux += PI * emission * (0.5 * doubled_area.length()) as f32;
-            }
+    for (material, _, doubled_area) in shaded_areas(scene) {
+        let Surface::Phong(phong) = &material.surface;
+        if !phong.emission.is_zero() {
+            flux += PI * phong.emission.factor * (0.5 * doubled_area.length()) as f32;
         }
     }
     let area = bounds.surface_area() as f32;
@@ -84,8 +78,12 @@ fn ceiling(bounds: Aabb) -> Light {
     Light { name: "ceiling".to_owned(), intensity, samples: 4, kind }
 }
 
-/// Neutral grey, lightest at the horizon.
-fn backdrop(strength: f32) -> Background {
+/// Neutral grey, lightest at the horizon; even where the horizon does not lie level in the picture.
+fn backdrop(strength: f32, view: &View) -> Background {
     let grey = |value: f32| Rgb::splat(strength * value);
-    Background::Gradient { top: grey(0.12), horizon: grey(0.32), bottom: grey(0.12) }
+    if view.up == DVec3::Y {
+        Background::Gradient { top: grey(0.06), horizon: grey(0.22), bottom: grey(0.06) }
+    } else {
+        Background::Constant(grey(0.18))
+    }
 }

@@ -23,7 +23,7 @@ use heliostat_scene::material::{ColorInput, FloatInput, FresnelMode, Phong, Reli
 use heliostat_scene::{Material, Rgb, TextureId};
 
 /// Reflectance of a surface that nothing is known of.
-const NEUTRAL: Rgb = Rgb::splat(0.7);
+const NEUTRAL: Rgb = Rgb::splat(0.6);
 
 /// Height of a bump map's white, in sizes of the model.
 const BUMP_HEIGHT: f32 = 0.01;
