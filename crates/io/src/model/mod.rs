@@ -9,7 +9,7 @@ mod rig;
 mod stance;
 
 use crate::error::{LoadError, Warning};
-use crate::obj::{ObjModel, ObjOptions, Placement, load_obj};
+use crate::obj::{ObjModel, ObjOptions, Placement, load_obj, unique};
 use crate::texture_cache::TextureCache;
 use enclosure::open_side;
 use fit::{View, fit};
@@ -57,12 +57,9 @@ pub fn scene_from_obj(
 /// The model with a camera and lights; `name` is for objects that have none.
 pub fn scene_of(model: &ObjModel, name: &str, aspect: f32) -> Scene {
     let mut scene = Scene::default();
-    model.append_to(&mut scene, &Placement::identity());
-    for object in scene.objects.iter_mut().filter(|object| object.name.is_empty()) {
-        object.name = name.to_owned();
-    }
+    named(model, name).append_to(&mut scene, &Placement::identity());
     let meshes = scene.meshes.clone();
-    let bounds = meshes.iter().fold(Aabb::EMPTY, |all, mesh| all.union(mesh.bounds()));
+    let bounds = bounds_of(&scene);
     let inside = open_side(&scene, bounds);
     let view = inside.map_or_else(|| View::three_quarters(&stance(&meshes, bounds)), View::into);
     let points = meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| p.as_dvec3());
@@ -74,6 +71,26 @@ pub fn scene_of(model: &ObjModel, name: &str, aspect: f32) -> Scene {
     });
     rig::light(&mut scene, bounds, &view, inside.is_some());
     scene
+}
+
+/// Stops that bring a scene of [`scene_of`] to a middling brightness: 0 where the light was chosen here, else by the strength
+/// of the model's own emitters, which are given in any unit.
+pub fn exposure_of(scene: &Scene) -> f32 {
+    rig::exposure(scene, bounds_of(scene))
+}
+
+fn bounds_of(scene: &Scene) -> Aabb {
+    scene.meshes.iter().fold(Aabb::EMPTY, |all, mesh| all.union(mesh.bounds()))
+}
+
+/// The model with `name` for the object that has none.
+fn named(model: &ObjModel, name: &str) -> ObjModel {
+    let mut model = model.clone();
+    let mut taken = model.objects.iter().map(|object| object.name.clone()).collect();
+    for object in model.objects.iter_mut().filter(|object| object.name.is_empty()) {
+        object.name = unique(name.to_owned(), &mut taken);
+    }
+    model
 }
 
 /// Corners of each triangle, and twice its area times its normal.
@@ -100,3 +117,6 @@ fn shaded_areas(scene: &Scene) -> impl Iterator<Item = (&Material, [Vec3; 3], DV
         })
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -16,6 +16,15 @@ use std::f32::consts::PI;
 /// The model lights itself when its emitters give its box this irradiance on the mean.
 const ENOUGH: f32 = 0.05;
 
+/// The irradiance by its own emitters that leaves a model's picture as it is.
+const MIDDLING: f32 = 0.3;
+
+/// Stops from the model's own light to a middling one; 0 where it does not light itself.
+pub(super) fn exposure(scene: &Scene, bounds: Aabb) -> f32 {
+    let own = luminance(own_irradiance(scene, bounds));
+    if own >= ENOUGH { (MIDDLING / own).log2() } else { 0.0 }
+}
+
 /// Sets lights and background of a scene that holds a model in `bounds`. `is_inside` tells that the camera looks into a box.
 pub(super) fn light(scene: &mut Scene, bounds: Aabb, view: &View, is_inside: bool) {
     let own = own_irradiance(scene, bounds);

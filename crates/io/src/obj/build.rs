@@ -58,7 +58,7 @@ fn object_name(group: &GroupName) -> String {
 }
 
 /// `name`, or `name.2`, `name.3`, ... when it is taken; takes it.
-pub(super) fn unique(name: String, taken: &mut HashSet<String>) -> String {
+pub(crate) fn unique(name: String, taken: &mut HashSet<String>) -> String {
     if taken.insert(name.clone()) {
         return name;
     }

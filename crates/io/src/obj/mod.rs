@@ -40,6 +40,8 @@ mod textures;
 mod triangulate;
 mod warnings;
 
+pub(crate) use build::unique;
+
 pub use append::Placement;
 pub use files::{DiskFiles, ObjFiles};
 

@@ -115,8 +115,8 @@ pub struct Output {
 }
 
 impl OutputTable {
-    /// The view of a PNG.
-    pub(crate) fn view(&self) -> View {
+    /// The view of a PNG; of `usual_exposure`, in stops, where the file gives none.
+    pub(crate) fn view(&self, usual_exposure: f32) -> View {
         let transform = match self.view {
             None => ViewTransform::default(),
             Some(ViewName::Standard) => ViewTransform::Standard,
@@ -124,7 +124,7 @@ impl OutputTable {
             Some(ViewName::Aces) => ViewTransform::Aces,
             Some(ViewName::Neutral) => ViewTransform::Neutral,
         };
-        View { transform, exposure: self.exposure.map_or(0.0, Number::f32) }
+        View { transform, exposure: self.exposure.map_or(usual_exposure, Number::f32) }
     }
 
     /// How pictures want to be written.

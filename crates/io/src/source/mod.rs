@@ -9,6 +9,7 @@ mod lone_model;
 use crate::document::Sources;
 use crate::error::{LoadError, Warning};
 use crate::file::read_file;
+use crate::model::exposure_of;
 use crate::scene_file::output::Output;
 use crate::scene_file::time::TimeTable;
 use crate::scene_file::{Assets, Built, FileAt, SceneFile, Trouble, build, camera_names};
@@ -110,10 +111,11 @@ impl Source {
             Some(model) => model.build(&file)?,
             None => self.build(&file, seconds)?,
         };
+        let usual_exposure = if self.model.is_some() { exposure_of(&built.scene) } else { 0.0 };
         Ok(Shot {
             scene: built.scene,
             settings: built.settings,
-            view: file.output.view(),
+            view: file.output.view(usual_exposure),
             output: file.output.output(),
             warnings: built.warnings,
         })

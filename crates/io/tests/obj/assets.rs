@@ -3,6 +3,7 @@
 use crate::models::asset_models;
 use glam::DVec3;
 use heliostat_io::image_file::Limits;
+use heliostat_io::model::scene_of;
 use heliostat_io::obj::{ObjModel, ObjOptions, load_obj};
 use heliostat_io::texture_cache::TextureCache;
 use heliostat_scene::texture::Pattern;
@@ -30,6 +31,8 @@ fn every_model_loads_and_is_valid() {
             object.mesh.validate().unwrap_or_else(|error| panic!("{}: {error}", path.display()));
             assert!(object.materials.iter().all(|&m| m < model.materials.len()));
         }
+        let scene = scene_of(&model, "model", 1.5);
+        scene.validate().unwrap_or_else(|issues| panic!("{}: {issues:?}", path.display()));
     }
 }
 
