@@ -18,9 +18,9 @@ pub(super) struct View {
 }
 
 impl View {
-    /// Three quarters from the front, from somewhat above.
-    pub(super) fn three_quarters(stance: &Stance) -> Self {
-        let (sin_azimuth, cos_azimuth) = 30_f64.to_radians().sin_cos();
+    /// From outside, as the stance asks.
+    pub(super) fn onto(stance: &Stance) -> Self {
+        let (sin_azimuth, cos_azimuth) = stance.azimuth.sin_cos();
         let (sin, cos) = stance.elevation.sin_cos();
         let side = stance.up.cross(stance.front);
         let level = cos_azimuth * stance.front + sin_azimuth * side;

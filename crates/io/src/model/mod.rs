@@ -16,6 +16,7 @@ use fit::{View, fit};
 use glam::{DVec3, Vec3};
 use heliostat_geometry::{Aabb, TriMesh};
 use heliostat_scene::camera::Projection;
+use heliostat_scene::material::Surface;
 use heliostat_scene::object::Geometry;
 use heliostat_scene::{Camera, Material, Motion, Scene};
 use stance::stance;
@@ -61,7 +62,7 @@ pub fn scene_of(model: &ObjModel, name: &str, aspect: f32) -> Scene {
     let meshes = scene.meshes.clone();
     let bounds = bounds_of(&scene);
     let inside = open_side(&scene, bounds);
-    let view = inside.map_or_else(|| View::three_quarters(&stance(&meshes, bounds)), View::into);
+    let view = inside.map_or_else(|| View::onto(&stance(&meshes, bounds)), View::into);
     let points = meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| p.as_dvec3());
     scene.cameras.push(Camera {
         name: FITTED_CAMERA.to_owned(),
@@ -77,6 +78,15 @@ pub fn scene_of(model: &ObjModel, name: &str, aspect: f32) -> Scene {
 /// of the model's own emitters, which are given in any unit.
 pub fn exposure_of(scene: &Scene) -> f32 {
     rig::exposure(scene, bounds_of(scene))
+}
+
+/// Whether any material refracts: then light passes through it to what lies behind.
+pub fn has_glass(scene: &Scene) -> bool {
+    let refracts = |material: &Material| {
+        let Surface::Phong(phong) = &material.surface;
+        !phong.transparency.is_zero()
+    };
+    scene.materials.iter().any(refracts)
 }
 
 fn bounds_of(scene: &Scene) -> Aabb {

@@ -24,8 +24,21 @@ pub(super) struct Stance {
     pub(super) up: DVec3,
     /// Unit vector at a right angle to `up`, from the model to whoever looks at its face.
     pub(super) front: DVec3,
+    /// Angle in radians to walk around from the front, counter-clockwise seen from above.
+    pub(super) azimuth: f64,
     /// Angle in radians from which to look down.
     pub(super) elevation: f64,
+}
+
+impl Stance {
+    /// Long models are seen more from their side.
+    fn turned_to_the_long_side(self, size: DVec3) -> Self {
+        /// Depth over width from which a model is long.
+        const LONG: f64 = 1.3;
+        let width = size.dot(self.up.cross(self.front).abs());
+        let is_long = size.dot(self.front.abs()) > LONG * width;
+        Self { azimuth: if is_long { 60_f64.to_radians() } else { self.azimuth }, ..self }
+    }
 }
 
 /// The stance of a model in `bounds`.
@@ -33,7 +46,12 @@ pub(super) fn stance(meshes: &[Arc<TriMesh>], bounds: Aabb) -> Stance {
     let size = bounds.size();
     let is_flat = |axis: usize| size[axis] < FLAT * size.max_element();
     let facing = |axis: usize| if mean_normal(meshes)[axis] < 0.0 { -1.0 } else { 1.0 };
-    let usual = Stance { up: DVec3::Y, front: DVec3::Z, elevation: 20_f64.to_radians() };
+    let usual = Stance {
+        up: DVec3::Y,
+        front: DVec3::Z,
+        azimuth: 30_f64.to_radians(),
+        elevation: 20_f64.to_radians(),
+    };
     if is_flat(1) {
         // A floor: look down on it.
         Stance { elevation: 40_f64.to_radians(), ..usual }
@@ -42,9 +60,9 @@ pub(super) fn stance(meshes: &[Arc<TriMesh>], bounds: Aabb) -> Stance {
     } else if is_flat(2) {
         Stance { front: facing(2) * DVec3::Z, ..usual }
     } else if !stands(meshes, bounds, 1) && stands(meshes, bounds, 2) {
-        Stance { up: DVec3::Z, front: DVec3::NEG_Y, ..usual }
+        Stance { up: DVec3::Z, front: DVec3::NEG_Y, ..usual }.turned_to_the_long_side(size.as_dvec3())
     } else {
-        usual
+        usual.turned_to_the_long_side(size.as_dvec3())
     }
 }
 
@@ -148,6 +166,14 @@ mod tests {
     fn what_stands_every_way_or_none_has_y_up() {
         let cube = [Arc::new(block(Vec3::ONE, Vec3::ONE))];
         assert_eq!(stance_of(&cube).up, DVec3::Y);
+    }
+
+    #[test]
+    fn long_models_are_seen_from_their_side() {
+        let of = |half: Vec3| stance_of(&[Arc::new(block(Vec3::ONE, half))]).azimuth.to_degrees().round();
+        assert_eq!(of(Vec3::new(1.0, 1.0, 2.0)), 60.0);
+        assert_eq!(of(Vec3::new(2.0, 1.0, 1.0)), 30.0);
+        assert_eq!(of(Vec3::new(1.0, 5.0, 1.0)), 30.0);
     }
 
     #[test]

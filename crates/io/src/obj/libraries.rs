@@ -10,7 +10,7 @@ use crate::error::{LoadError, quote};
 use crate::nearest::suggestion;
 use heliostat_geometry::Aabb;
 use heliostat_scene::{Material, Texture};
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::path::PathBuf;
 
 /// The materials of a model and how to find them.
@@ -45,7 +45,7 @@ pub(super) fn load(
     let mut out = Materials { by_name: vec![usize::MAX; raw.material_names.len()], ..Materials::default() };
     let ids: HashMap<_, _> =
         raw.material_names.iter().enumerate().map(|(id, name)| (name.as_str(), id)).collect();
-    let mut defined = HashSet::new();
+    let mut defined = BTreeSet::new();
     let mut known = Known::default();
     // Of libraries that define the same name, the last one counts, as within one library.
     for (path, bytes) in libraries.iter().rev() {
@@ -72,7 +72,7 @@ impl Materials {
         source: &SourceText<'_>,
         raw: &mut RawObj,
         has_library: bool,
-        defined: &HashSet<String>,
+        defined: &BTreeSet<String>,
     ) {
         for (id, name) in raw.material_names.iter().enumerate() {
             if self.by_name[id] != usize::MAX {

@@ -3,7 +3,7 @@
 use super::document::Timeline;
 use crate::document::Fault;
 use crate::error::quote;
-use crate::model::{FITTED_CAMERA, scene_of};
+use crate::model::{FITTED_CAMERA, has_glass, scene_of};
 use crate::obj::ObjModel;
 use crate::scene_file::{Assets, Built, SceneFile, Trouble};
 use heliostat_scene::RenderSettings;
@@ -54,8 +54,10 @@ impl LoneModel {
                 Fault::unknown("camera", name, names().collect::<Vec<_>>()).or_at(name.span())
             })?,
         };
+        // Nobody sets up a lone model by hand: its glass and water let the light through.
+        let transparent_shadows = file.render.transparent_shadows.unwrap_or_else(|| has_glass(&scene));
         let warnings = self.model.warnings.clone();
-        Ok(Built { settings: RenderSettings { camera, ..settings }, scene, warnings })
+        Ok(Built { settings: RenderSettings { camera, transparent_shadows, ..settings }, scene, warnings })
     }
 
     /// The names of the cameras.
