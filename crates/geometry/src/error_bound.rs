@@ -55,6 +55,12 @@ pub fn grow_slab(near: f32, far: f32) -> Interval {
     Interval { min, max }
 }
 
+/// Bound of the rounding of the scalar product of `axis` with sums of up to eight vectors, themselves rounded once, whose
+/// absolute values add up to `reach`.
+pub fn projection(reach: Vec3, axis: Vec3) -> f32 {
+    gamma(16) * reach.dot(axis.abs()) + f32::MIN_POSITIVE
+}
+
 /// Bound of the rounding of `p`, a point computed in `f64` and rounded once, that a ray will see again in the
 /// space of its object.
 ///

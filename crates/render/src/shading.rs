@@ -112,6 +112,7 @@ impl<'a> ShadingPoint<'a> {
             ns: self.ns,
             view: self.view,
             phong: &self.phong,
+            own: self.surface.object(),
             time: self.time,
         }
     }

@@ -1,13 +1,15 @@
 //! Light from surfaces: area lights, and objects whose material shines.
 
 use super::emitter::{Emitter, EmitterSample};
+use super::flat::WorldFlat;
 use super::sphere::WorldSphere;
 use super::{LightSample, Target};
 use crate::material_eval::MaterialEval;
 use crate::texture_eval::TexturePoint;
 use crate::world::Place;
 use glam::{Vec2, Vec3};
-use heliostat_geometry::{Shape, SurfacePoint, Transform};
+use heliostat_geometry::shape::Sphere;
+use heliostat_geometry::{Aabb, Shape, SurfacePoint, Transform};
 use heliostat_scene::light::{Falloff, LightKind};
 use heliostat_scene::material::Surface;
 use heliostat_scene::object::Geometry;
@@ -21,8 +23,7 @@ pub(super) struct AreaLight<'s> {
     radiance: Radiance<'s>,
     falloff: Falloff,
     two_sided: bool,
-    /// The surface as a sphere, where it is one that stands still.
-    sphere: Option<WorldSphere>,
+    shortcut: Option<Shortcut<'s>>,
 }
 
 /// What the surface gives off.
@@ -34,19 +35,31 @@ enum Radiance<'s> {
     Object(&'s Scene, &'s Object),
 }
 
+/// Surfaces whose points are found without looking at the emitter.
+#[derive(Debug)]
+enum Shortcut<'s> {
+    /// A sphere that stands still and falls off: uniform by solid angle.
+    Sphere(&'s Sphere, &'s Transform, WorldSphere),
+    /// A flat lamp.
+    Flat(WorldFlat),
+}
+
 impl<'s> AreaLight<'s> {
     /// An area light of the scene; `None` when its surface has no finite area above 0.
     pub(super) fn of_light(scene: &'s Scene, light: &'s Light) -> Option<Self> {
-        let LightKind::Area { geometry, transform, two_sided, falloff, .. } = &light.kind else {
-            return None;
+        let LightKind::Area { geometry, transform, two_sided, falloff, .. } = &light.kind else { return None };
+        let flat = match geometry {
+            Geometry::Shape(shape) => WorldFlat::new(shape, transform).map(Shortcut::Flat),
+            Geometry::Mesh(_) => None,
         };
+        let sphere = || if *falloff == Falloff::InverseSquare { sphere_of(geometry, transform) } else { None };
         Some(Self {
             emitter: Emitter::new(scene, geometry, |_| true)?,
             place: Place::Still(transform),
             radiance: Radiance::Constant(light.intensity),
             falloff: *falloff,
             two_sided: *two_sided,
-            sphere: sphere_of(geometry, transform),
+            shortcut: flat.or_else(sphere),
         })
     }
 
@@ -63,69 +76,85 @@ impl<'s> AreaLight<'s> {
             radiance: Radiance::Object(scene, object),
             falloff: Falloff::InverseSquare,
             two_sided: true,
-            sphere: still.and_then(|transform| sphere_of(&object.geometry, transform)),
+            shortcut: still.and_then(|transform| sphere_of(&object.geometry, transform)),
         })
+    }
+
+    /// A box around the surface over the shutter.
+    pub(super) fn bounds(&self) -> Aabb {
+        self.place.bounds(self.emitter.bounds())
     }
 
     /// The light that arrives at `p` from one point of the surface.
     #[inline]
     pub(super) fn sample(&self, p: Vec3, u: Vec2, time: f32) -> Option<LightSample> {
-        match self.falloff {
-            Falloff::None => self.sample_as_points(p, u, time),
-            Falloff::InverseSquare => match self.sphere.and_then(|sphere| self.sample_sphere(sphere, p, u)) {
-                Some(sample) => Some(sample),
-                None => self.sample_by_area(p, u, time),
-            },
-        }
+        let by_shortcut = match &self.shortcut {
+            Some(Shortcut::Flat(flat)) => return self.sample_flat(flat, p, u),
+            Some(Shortcut::Sphere(local, transform, sphere)) => {
+                self.sample_sphere(local, transform, *sphere, p, u)
+            }
+            None => None,
+        };
+        by_shortcut.or_else(|| self.sample_by_area(p, u, time))
     }
 
-    /// The report's model: a point that sends the same in all directions, undiminished.
-    fn sample_as_points(&self, p: Vec3, u: Vec2, time: f32) -> Option<LightSample> {
-        let sample = self.emitter.sample(u)?;
-        let at = self.place.at(time, |transform| transform.sample_to_world(&sample.point).at)?;
-        let to_light = (at.p - p).try_normalize()?;
-        Some(LightSample { to_light, arriving: self.radiance_at(&sample), target: self.target(at) })
+    /// One point of a flat lamp.
+    #[inline]
+    fn sample_flat(&self, flat: &WorldFlat, p: Vec3, u: Vec2) -> Option<LightSample> {
+        let on_light = flat.point(u);
+        let Radiance::Constant(radiance) = self.radiance else { return None };
+        let (to_light, share) = self.share(on_light - p, flat.normal, flat.area)?;
+        Some(LightSample { to_light, arriving: share * radiance, target: Target::Point(on_light) })
     }
 
-    /// Radiance times the cosine at the light over the squared distance, over the density by area.
+    /// One point of any surface, uniform by local area.
     fn sample_by_area(&self, p: Vec3, u: Vec2, time: f32) -> Option<LightSample> {
         let sample = self.emitter.sample(u)?;
         let on_light = self.place.at(time, |transform| transform.sample_to_world(&sample.point))?;
-        let way = on_light.at.p - p;
+        let (to_light, share) = self.share(on_light.at.p - p, on_light.at.ng, on_light.pdf.recip())?;
+        Some(LightSample {
+            to_light,
+            arriving: share * self.radiance_at(&sample),
+            target: self.target(on_light.at),
+        })
+    }
+
+    /// One point of a sphere by the solid angle under which it is seen; `None` inside.
+    fn sample_sphere(
+        &self,
+        local: &Sphere,
+        transform: &Transform,
+        sphere: WorldSphere,
+        p: Vec3,
+        u: Vec2,
+    ) -> Option<LightSample> {
+        let seen = sphere.sample(p, u)?;
+        let normal = transform.matrix().matrix3.inverse().mul_vec3(seen.normal).normalize();
+        let point = local.point(normal);
+        let at = transform.surface_point(point.p, point.p_err, point.ng);
+        let radiance = self.radiance_at(&EmitterSample { point, slot: 0 });
+        Some(LightSample { to_light: seen.dir, arriving: seen.solid_angle * radiance, target: self.target(at) })
+    }
+
+    /// The unit direction of `way`, from a point to a point of the surface with normal `ng` that stands for `area`, and
+    /// the share of the radiance there that arrives as irradiance; `None` when nothing does.
+    #[inline]
+    fn share(&self, way: Vec3, ng: Vec3, area: f32) -> Option<(Vec3, f32)> {
         let distance_squared = way.length_squared();
         if distance_squared == 0.0 {
             return None;
         }
         let to_light = way / distance_squared.sqrt();
-        let cos = self.emitted_cos(on_light.at.ng.dot(to_light));
-        let weight = cos / (distance_squared * on_light.pdf);
-        // A piece of the surface that the map flattens to nothing has an infinite density.
-        (weight > 0.0 && weight.is_finite()).then(|| LightSample {
-            to_light,
-            arriving: weight * self.radiance_at(&sample),
-            target: self.target(on_light.at),
-        })
-    }
-
-    /// Radiance times the solid angle; `None` inside the sphere.
-    fn sample_sphere(&self, sphere: WorldSphere, p: Vec3, u: Vec2) -> Option<LightSample> {
-        let seen = sphere.sample(p, u)?;
-        let Place::Still(transform) = self.place else { return None };
-        let Emitter::Shape(Shape::Sphere(local_sphere)) = &self.emitter else { return None };
-        let local_normal = transform.matrix().matrix3.inverse().mul_vec3(seen.normal).normalize();
-        let sample = local_sphere.point(local_normal);
-        let at = transform.sample_to_world(&sample).at;
-        let radiance = self.radiance_at(&EmitterSample { point: sample, slot: 0 });
-        Some(LightSample {
-            to_light: seen.dir,
-            arriving: seen.solid_angle * radiance,
-            target: self.target(at),
-        })
-    }
-
-    /// The cosine at the light from that of its normal with the direction to it; 0 on a dark side.
-    fn emitted_cos(&self, cos: f32) -> f32 {
-        if self.two_sided { cos.abs() } else { (-cos).max(0.0) }
+        // The report's model: a point that sends the same in all directions, undiminished.
+        if self.falloff == Falloff::None {
+            return Some((to_light, 1.0));
+        }
+        // Physics: the cosine at the light over the squared distance, by area.
+        let cos = -ng.dot(to_light);
+        let cos = if self.two_sided { cos.abs() } else { cos };
+        let share = cos * area / distance_squared;
+        // A piece of the surface that the map flattens to nothing has no area.
+        (share > 0.0 && share.is_finite()).then_some((to_light, share))
     }
 
     fn radiance_at(&self, sample: &EmitterSample) -> Rgb {
@@ -149,10 +178,13 @@ impl<'s> AreaLight<'s> {
     }
 }
 
-/// The world sphere of a geometry, if it is one.
-fn sphere_of(geometry: &Geometry, transform: &Transform) -> Option<WorldSphere> {
+/// The shortcut for a geometry that is a sphere in world space.
+fn sphere_of<'s>(geometry: &'s Geometry, transform: &'s Transform) -> Option<Shortcut<'s>> {
     match geometry {
-        Geometry::Shape(Shape::Sphere(sphere)) => WorldSphere::new(sphere.radius, transform),
+        Geometry::Shape(Shape::Sphere(sphere)) => {
+            let world = WorldSphere::new(sphere.radius, transform)?;
+            Some(Shortcut::Sphere(sphere, transform, world))
+        }
         _ => None,
     }
 }

@@ -2,17 +2,17 @@
 
 use super::{LightSample, Target};
 use glam::{Vec2, Vec3};
-use heliostat_geometry::OrthonormalFrame;
+use heliostat_geometry::{Aabb, OrthonormalFrame};
 use heliostat_geometry::warp::square_to_cone;
 use heliostat_scene::Rgb;
 use heliostat_scene::light::Falloff;
-use std::f32::consts::PI;
+use std::f32::consts::{FRAC_PI_4, PI};
 
 /// A point light, with a cone if it is a spot.
 #[derive(Debug)]
 pub(super) struct PointLight {
     intensity: Rgb,
-    position: Vec3,
+    pub(super) position: Vec3,
     falloff: Falloff,
     cone: Option<Cone>,
 }
@@ -94,6 +94,18 @@ impl DirectionalLight {
     /// Whether it covers more than a point of the sky.
     pub(super) fn is_wide(&self) -> bool {
         self.half_angle > 0.0
+    }
+
+    /// A box that holds the whole source as seen from `p`, behind everything in the box `scene`.
+    pub(super) fn bounds(&self, p: Vec3, scene: Aabb) -> Option<Aabb> {
+        let away = (scene.min - p).abs().max((scene.max - p).abs()).length();
+        let radius = away * self.half_angle.tan();
+        if self.half_angle >= FRAC_PI_4 || !radius.is_finite() {
+            return None;
+        }
+        // A ball at that distance which the cone of directions touches from inside: radius / distance is the tangent.
+        let centre = p + away * self.frame.z;
+        Some(Aabb { min: centre - radius, max: centre + radius })
     }
 
     #[inline]

@@ -4,7 +4,7 @@ use super::{LightSample, PreparedLight, Target};
 use crate::counters::RayCounters;
 use crate::material_eval::PhongPoint;
 use crate::sampler::Sampler;
-use crate::world::World;
+use crate::world::{Candidates, World};
 use glam::{Vec2, Vec3};
 use heliostat_geometry::{Ray, SurfacePoint};
 use heliostat_scene::Rgb;
@@ -24,6 +24,8 @@ pub(crate) struct LitPoint<'a> {
     pub(crate) view: Vec3,
     /// The surface.
     pub(crate) phong: &'a PhongPoint,
+    /// The object that the point is on.
+    pub(crate) own: Option<u32>,
     /// Over the shutter.
     pub(crate) time: f32,
 }
@@ -42,12 +44,15 @@ pub(crate) fn lighting(
     for light in world.lights() {
         if light.samples == 1 {
             let u = if light.is_extended { sampler.next_2d() } else { Vec2::ZERO };
-            sum += from_sample(world, light, point, u, counters);
+            sum += from_sample(world, light, point, u, Candidates::All, counters);
         } else {
             // Every point takes all samples: none decides by itself whether it lies in the penumbra.
+            let bounds = light.bounds(point.start.p, world.bounds());
+            let blockers =
+                bounds.map_or(Candidates::All, |bounds| world.blockers(&point.start, point.own, bounds));
             let mut parts = Rgb::ZERO;
             for u in sampler.array_2d(light.samples) {
-                parts += from_sample(world, light, point, u, counters);
+                parts += from_sample(world, light, point, u, blockers, counters);
             }
             sum += parts / light.samples as f32;
         }
@@ -62,6 +67,7 @@ fn from_sample(
     light: &PreparedLight<'_>,
     point: &LitPoint<'_>,
     u: Vec2,
+    blockers: Candidates,
     counters: &mut RayCounters,
 ) -> Rgb {
     let Some(sample) = light.sample(point.start.p, u, point.time) else { return Rgb::ZERO };
@@ -78,8 +84,11 @@ fn from_sample(
     if answer == Rgb::ZERO {
         return Rgb::ZERO;
     }
+    if blockers.are_none() {
+        return answer;
+    }
     counters.shadow += 1;
-    answer * world.transmittance(&shadow_ray(&point.start, &sample), point.time)
+    answer * world.transmittance_past(&shadow_ray(&point.start, &sample), point.time, blockers)
 }
 
 /// The ray from a point to where its light comes from.

@@ -2,7 +2,7 @@
 
 use glam::Vec2;
 use heliostat_geometry::shape::AreaSample;
-use heliostat_geometry::{Shape, TriMesh};
+use heliostat_geometry::{Aabb, Shape, TriMesh};
 use heliostat_scene::Scene;
 use heliostat_scene::object::Geometry;
 
@@ -39,6 +39,14 @@ impl<'s> Emitter<'s> {
                 let triangles = TriangleTable::new(mesh, shines)?;
                 Some(Self::Mesh { mesh, triangles })
             }
+        }
+    }
+
+    /// A box around it in local space.
+    pub(super) fn bounds(&self) -> Aabb {
+        match self {
+            Self::Shape(shape) => shape.geometry().bounds(),
+            Self::Mesh { mesh, .. } => mesh.bounds(),
         }
     }
 

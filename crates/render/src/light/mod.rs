@@ -7,12 +7,13 @@ mod area;
 mod delta;
 pub(crate) mod direct;
 mod emitter;
+mod flat;
 mod sphere;
 
 use area::AreaLight;
 use delta::{DirectionalLight, PointLight};
 use glam::{Vec2, Vec3};
-use heliostat_geometry::SurfacePoint;
+use heliostat_geometry::{Aabb, SurfacePoint};
 use heliostat_scene::light::LightKind;
 use heliostat_scene::{Light, Rgb, Scene};
 
@@ -48,6 +49,8 @@ pub(crate) struct PreparedLight<'s> {
     pub(crate) samples: u32,
     /// Whether samples differ: the light covers more than a point or a direction.
     pub(crate) is_extended: bool,
+    /// A box around an area light.
+    surface: Option<Aabb>,
     source: Source<'s>,
 }
 
@@ -59,7 +62,28 @@ enum Source<'s> {
     Area(AreaLight<'s>),
 }
 
-impl PreparedLight<'_> {
+impl<'s> PreparedLight<'s> {
+    fn new(samples: u32, source: Source<'s>) -> Self {
+        let (is_extended, surface) = match &source {
+            Source::Point(_) => (false, None),
+            Source::Directional(light) => (light.is_wide(), None),
+            Source::Area(light) => (true, Some(light.bounds())),
+        };
+        let samples = if is_extended { samples.max(1) } else { 1 };
+        Self { samples, is_extended, surface: surface.filter(|bounds| bounds.is_finite()), source }
+    }
+
+    /// A box around all points that light comes from, as seen from `p` in a scene around which lies `scene`.
+    ///
+    /// `None` where no finite box holds them.
+    pub(crate) fn bounds(&self, p: Vec3, scene: Aabb) -> Option<Aabb> {
+        match &self.source {
+            Source::Point(light) => Some(Aabb { min: light.position, max: light.position }),
+            Source::Directional(light) => light.bounds(p, scene),
+            Source::Area(_) => self.surface,
+        }
+    }
+
     /// The light that arrives at `p` by the random numbers `u`; `None` where nothing comes this way.
     #[inline]
     pub(crate) fn sample(&self, p: Vec3, u: Vec2, time: f32) -> Option<LightSample> {
@@ -86,12 +110,7 @@ impl<'s> LightTable<'s> {
         let ambient = |light: &&Light| matches!(light.kind, LightKind::Ambient);
         let declared = scene.lights.iter().filter_map(|light| prepare(scene, light));
         let shining = scene.objects.iter().filter_map(|object| {
-            let light = AreaLight::of_object(scene, object)?;
-            Some(PreparedLight {
-                samples: SHINING_OBJECT_SAMPLES,
-                is_extended: true,
-                source: Source::Area(light),
-            })
+            Some(PreparedLight::new(SHINING_OBJECT_SAMPLES, Source::Area(AreaLight::of_object(scene, object)?)))
         });
         Self {
             ambient: scene.lights.iter().filter(ambient).map(|light| light.intensity).sum(),
@@ -119,13 +138,7 @@ fn prepare<'s>(scene: &'s Scene, light: &'s Light) -> Option<PreparedLight<'s>> 
         }
         LightKind::Area { .. } => Source::Area(AreaLight::of_light(scene, light)?),
     };
-    let is_extended = match &source {
-        Source::Point(_) => false,
-        Source::Directional(light) => light.is_wide(),
-        Source::Area(_) => true,
-    };
-    let samples = if is_extended { light.samples.max(1) } else { 1 };
-    Some(PreparedLight { samples, is_extended, source })
+    Some(PreparedLight::new(light.samples, source))
 }
 
 /// The radiance that the visible surface of area light `light` sends along `dir` from where its normal is `ng`.

@@ -11,6 +11,8 @@ mod hit;
 mod level;
 mod place;
 mod shadow;
+mod shaft;
+mod slabs;
 mod solid;
 mod terminator;
 mod trees;
@@ -19,6 +21,7 @@ use crossing::coincide;
 pub(crate) use crossing::{Inside, PassingRay};
 pub use error::WorldError;
 pub use hit::{Owner, SurfaceHit};
+pub(crate) use level::Candidates;
 pub(crate) use place::Place;
 pub use trees::TreeCache;
 

@@ -1,50 +1,72 @@
 //! What is left of light on its way: solid things stop it, cut-outs and (as an option) glass let a part through.
 
+use super::level::Candidates;
+use super::shaft::Shaft;
 use super::solid::{Solid, SurfaceAt};
 use super::{Shadow, World};
 use crate::material_eval::MaterialEval;
 use crate::phong::{fresnel, refract};
 use crate::texture_eval::TexturePoint;
 use glam::Vec3;
-use heliostat_geometry::Ray;
+use heliostat_geometry::{Aabb, Ray, SurfacePoint};
 use heliostat_scene::material::{FresnelMode, Phong, Surface};
 use heliostat_scene::{Material, Object, Rgb, Scene};
 
 impl World<'_> {
     /// Whether something that lets no light through lies in the range of the ray.
-    #[inline]
     pub fn occluded(&self, ray: &Ray, time: f32) -> bool {
-        self.level.any(ray, |i, ray| {
-            self.shadows[i as usize] == Shadow::Solid && self.solids[i as usize].blocks(ray, time)
-        })
+        self.is_stopped(ray, time, Candidates::All)
     }
 
     /// The share of light that comes along a ray past everything that throws shadows.
     ///
     /// Light goes straight on: glass colours it by `transparency` at each surface and by its absorption inside, but does
     /// not bend it.
-    #[inline]
     pub fn transmittance(&self, ray: &Ray, time: f32) -> Rgb {
-        if self.occluded(ray, time) {
+        self.transmittance_past(ray, time, Candidates::All)
+    }
+
+    /// What may stop rays that leave a surface point, to the side of its normal, for the box `light` around a light.
+    ///
+    /// `own` is the object that the point is on.
+    pub(crate) fn blockers(&self, start: &SurfacePoint, own: Option<u32>, light: Aabb) -> Candidates {
+        // A ray starts at most so far from the point.
+        let moved = Vec3::splat(2.0 * start.p_err.element_sum());
+        let shaft = Shaft::new(start.p, moved, light);
+        let own = own.filter(|&own| self.solids[own as usize].is_left_by_rays(start));
+        self.level.candidates(&shaft, |i| {
+            self.shadows[i as usize] != Shadow::None
+                && own != Some(i)
+                && !self.solids[i as usize].lies_beside(&shaft)
+        })
+    }
+
+    /// [`World::transmittance`] where only the candidates can stop the light.
+    #[inline]
+    pub(crate) fn transmittance_past(&self, ray: &Ray, time: f32, candidates: Candidates) -> Rgb {
+        if self.is_stopped(ray, time, candidates) {
             Rgb::ZERO
         } else if self.has_filters {
-            self.filtered(ray, time)
+            self.filtered(ray, time, candidates)
         } else {
             Rgb::ONE
         }
     }
 
+    #[inline]
+    fn is_stopped(&self, ray: &Ray, time: f32, candidates: Candidates) -> bool {
+        self.level.any(ray, candidates, |i, ray| {
+            self.shadows[i as usize] == Shadow::Solid && self.solids[i as usize].blocks(ray, time)
+        })
+    }
+
     /// The share that passes the things that let light through.
-    fn filtered(&self, ray: &Ray, time: f32) -> Rgb {
+    fn filtered(&self, ray: &Ray, time: f32, candidates: Candidates) -> Rgb {
         let mut share = Rgb::ONE;
-        self.level.each(ray, |i| {
+        self.level.each(ray, candidates, |i| {
             if self.shadows[i as usize] == Shadow::Filter && share != Rgb::ZERO {
-                let filter = Filter {
-                    scene: self.scene,
-                    object: &self.scene.objects[i as usize],
-                    ray,
-                    glass: self.glass,
-                };
+                let object = &self.scene.objects[i as usize];
+                let filter = Filter { scene: self.scene, object, ray, glass: self.glass };
                 share *= filter.share(&self.solids[i as usize], time);
             }
         });

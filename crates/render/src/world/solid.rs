@@ -1,9 +1,10 @@
 //! One thing that rays can meet: a geometry at a place.
 
 use super::place::Place;
+use super::shaft::Shaft;
 use glam::Vec3;
 use heliostat_geometry::shape::Root;
-use heliostat_geometry::{Aabb, Hit, Ray, Shape, TriMesh};
+use heliostat_geometry::{Aabb, Hit, Ray, Shape, SurfacePoint, TriMesh};
 use heliostat_index::{MeshHit, MeshTree, TraversalCost};
 use heliostat_scene::Scene;
 use heliostat_scene::object::Geometry;
@@ -14,6 +15,8 @@ use std::sync::Arc;
 pub(crate) struct Solid<'s> {
     pub(crate) body: Body<'s>,
     pub(crate) place: Place<'s>,
+    /// The box around it over the shutter, in world space; unbounded for the infinite plane, empty for an empty mesh.
+    pub(crate) bounds: Aabb,
 }
 
 /// What there is in local space.
@@ -63,15 +66,11 @@ impl<'s> Solid<'s> {
                 Body::Mesh { mesh: &scene.meshes[id.index()], tree: Arc::clone(&trees[id.index()]) }
             }
         };
-        Self { body, place }
-    }
-
-    /// The box around it over the shutter, in world space; unbounded for the infinite plane, empty for an empty mesh.
-    pub(crate) fn bounds(&self) -> Aabb {
-        self.place.bounds(match &self.body {
+        let local = match &body {
             Body::Shape(shape) => shape.geometry().bounds(),
             Body::Mesh { mesh, .. } => mesh.bounds(),
-        })
+        };
+        Self { body, bounds: place.bounds(local), place }
     }
 
     /// The nearest meeting in the range of the ray.
@@ -111,6 +110,31 @@ impl<'s> Solid<'s> {
             Body::Mesh { mesh, tree } => tree.any_hit(mesh, &transform.ray_to_local(ray)),
         });
         blocked == Some(true)
+    }
+
+    /// Whether no ray that leaves its surface at `at`, to the side of the normal there, meets it again: a flat or convex
+    /// shape, from outside.
+    pub(crate) fn is_left_by_rays(&self, at: &SurfacePoint) -> bool {
+        let (Body::Shape(shape), Place::Still(transform)) = (&self.body, self.place) else { return false };
+        match shape {
+            Shape::Plane(_) | Shape::Rectangle(_) | Shape::Disk(_) | Shape::Triangle(_) => true,
+            Shape::Sphere(_) | Shape::Cuboid(_) | Shape::Cylinder(_) | Shape::Cone(_) => {
+                // The middle of a convex body lies behind all of its outer surface.
+                let middle = transform.point(shape.geometry().bounds().centre());
+                at.ng.dot(at.p - middle) > 0.0
+            }
+            Shape::Torus(_) => false,
+        }
+    }
+
+    /// Whether it is an infinite plane that has all of a shaft on one side.
+    pub(crate) fn lies_beside(&self, shaft: &Shaft) -> bool {
+        match (&self.body, self.place) {
+            (Body::Shape(Shape::Plane(_)), Place::Still(transform)) => {
+                shaft.is_beside(transform.point(Vec3::ZERO), transform.normal(Vec3::Y))
+            }
+            _ => false,
+        }
     }
 
     /// Visits every surface in the range of the ray once, in no certain order.

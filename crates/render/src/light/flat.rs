@@ -1,0 +1,50 @@
+//! Points on flat lamps that stand still: rectangles and disks, with everything that is the same for all points worked
+//! out once.
+
+use glam::{DVec2, DVec3, Vec2, Vec3};
+use heliostat_geometry::warp::square_to_disk;
+use heliostat_geometry::{Shape, Transform};
+
+/// A rectangle or a full disk in world space; a map may have stretched or sheared it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WorldFlat {
+    centre: DVec3,
+    /// Image of the local x axis, half of the size long.
+    x: DVec3,
+    /// Image of the local z axis, half of the size long.
+    z: DVec3,
+    is_disk: bool,
+    /// Unit normal.
+    pub(super) normal: Vec3,
+    pub(super) area: f32,
+}
+
+impl WorldFlat {
+    /// The image of a shape; `None` unless it is a rectangle or a full disk of area above 0.
+    pub(super) fn new(shape: &Shape, transform: &Transform) -> Option<Self> {
+        let (half, is_disk) = match shape {
+            Shape::Rectangle(rectangle) => (0.5 * rectangle.size.as_dvec2(), false),
+            Shape::Disk(disk) if disk.inner_radius == 0.0 => (DVec2::splat(f64::from(disk.radius)), true),
+            _ => return None,
+        };
+        let matrix = transform.matrix();
+        let (x, z) = (half.x * matrix.matrix3.x_axis, half.y * matrix.matrix3.z_axis);
+        let local = shape.geometry().area();
+        let area = (local * transform.area_stretch(DVec3::Y)) as f32;
+        (area > 0.0 && area.is_finite()).then(|| Self {
+            centre: matrix.translation,
+            x,
+            z,
+            is_disk,
+            normal: transform.normal(Vec3::Y),
+            area,
+        })
+    }
+
+    /// A point uniform by area.
+    #[inline]
+    pub(super) fn point(&self, u: Vec2) -> Vec3 {
+        let local = if self.is_disk { square_to_disk(u) } else { 2.0 * u - Vec2::ONE };
+        (self.centre + f64::from(local.x) * self.x + f64::from(local.y) * self.z).as_vec3()
+    }
+}
