@@ -6,10 +6,10 @@ use super::sphere::WorldSphere;
 use super::{LightSample, Target};
 use crate::material_eval::MaterialEval;
 use crate::texture_eval::TexturePoint;
-use crate::world::Place;
+use crate::world::{Hull, Place};
 use glam::{Vec2, Vec3};
 use heliostat_geometry::shape::Sphere;
-use heliostat_geometry::{Aabb, Shape, SurfacePoint, Transform};
+use heliostat_geometry::{Shape, SurfacePoint, Transform};
 use heliostat_scene::light::{Falloff, LightKind};
 use heliostat_scene::material::Surface;
 use heliostat_scene::object::Geometry;
@@ -80,9 +80,14 @@ impl<'s> AreaLight<'s> {
         })
     }
 
-    /// A box around the surface over the shutter.
-    pub(super) fn bounds(&self) -> Aabb {
-        self.place.bounds(self.emitter.bounds())
+    /// Around the surface over the shutter; `None` when it has no finite box.
+    pub(super) fn hull(&self) -> Option<Hull> {
+        let local = self.emitter.bounds();
+        let shape = match &self.emitter {
+            Emitter::Shape(shape) => Some(*shape),
+            Emitter::Mesh { .. } => None,
+        };
+        self.place.bounds(local).is_finite().then(|| Hull::new(local, shape, &self.place))
     }
 
     /// The light that arrives at `p` from one point of the surface.

@@ -12,7 +12,7 @@ use std::f32::consts::{FRAC_PI_4, PI};
 #[derive(Debug)]
 pub(super) struct PointLight {
     intensity: Rgb,
-    pub(super) position: Vec3,
+    position: Vec3,
     falloff: Falloff,
     cone: Option<Cone>,
 }

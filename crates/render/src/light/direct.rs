@@ -47,9 +47,9 @@ pub(crate) fn lighting(
             sum += from_sample(world, light, point, u, Candidates::All, counters);
         } else {
             // Every point takes all samples: none decides by itself whether it lies in the penumbra.
-            let bounds = light.bounds(point.start.p, world.bounds());
+            let hull = light.hull(point.start.p, world.bounds());
             let blockers =
-                bounds.map_or(Candidates::All, |bounds| world.blockers(&point.start, point.own, bounds));
+                hull.map_or(Candidates::All, |hull| world.blockers(&point.start, point.own, hull));
             let mut parts = Rgb::ZERO;
             for u in sampler.array_2d(light.samples) {
                 parts += from_sample(world, light, point, u, blockers, counters);

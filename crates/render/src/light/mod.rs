@@ -10,6 +10,7 @@ mod emitter;
 mod flat;
 mod sphere;
 
+use crate::world::Hull;
 use area::AreaLight;
 use delta::{DirectionalLight, PointLight};
 use glam::{Vec2, Vec3};
@@ -49,8 +50,8 @@ pub(crate) struct PreparedLight<'s> {
     pub(crate) samples: u32,
     /// Whether samples differ: the light covers more than a point or a direction.
     pub(crate) is_extended: bool,
-    /// A box around an area light.
-    surface: Option<Aabb>,
+    /// Around an area light.
+    surface: Option<Hull>,
     source: Source<'s>,
 }
 
@@ -67,19 +68,19 @@ impl<'s> PreparedLight<'s> {
         let (is_extended, surface) = match &source {
             Source::Point(_) => (false, None),
             Source::Directional(light) => (light.is_wide(), None),
-            Source::Area(light) => (true, Some(light.bounds())),
+            Source::Area(light) => (true, light.hull()),
         };
         let samples = if is_extended { samples.max(1) } else { 1 };
-        Self { samples, is_extended, surface: surface.filter(|bounds| bounds.is_finite()), source }
+        Self { samples, is_extended, surface, source }
     }
 
-    /// A box around all points that light comes from, as seen from `p` in a scene around which lies `scene`.
+    /// A hull around all points that light comes from, as seen from `p` in a scene around which lies the box `scene`.
     ///
-    /// `None` where no finite box holds them.
-    pub(crate) fn bounds(&self, p: Vec3, scene: Aabb) -> Option<Aabb> {
+    /// `None` where no finite one holds them.
+    pub(crate) fn hull(&self, p: Vec3, scene: Aabb) -> Option<Hull> {
         match &self.source {
-            Source::Point(light) => Some(Aabb { min: light.position, max: light.position }),
-            Source::Directional(light) => light.bounds(p, scene),
+            Source::Point(_) => None,
+            Source::Directional(light) => light.bounds(p, scene).map(Hull::of_box),
             Source::Area(_) => self.surface,
         }
     }

@@ -1,6 +1,5 @@
 //! The upper level: which of the things in the world a ray may meet.
 
-use super::shaft::Shaft;
 use super::slabs::Slabs;
 use super::solid::Solid;
 use heliostat_geometry::{Aabb, Ray};
@@ -120,18 +119,13 @@ impl Level {
         nearest
     }
 
-    /// The boxes of solids for which `counts` that a shaft may hold.
-    pub(super) fn candidates(&self, shaft: &Shaft, mut counts: impl FnMut(u32) -> bool) -> Candidates {
+    /// The boxes of the solids that count.
+    pub(super) fn candidates(&self, mut counts: impl FnMut(u32) -> bool) -> Candidates {
         if self.boxes.len() > MANY {
             return Candidates::All;
         }
-        let mut set = 0;
-        for (bit, (&id, bounds)) in self.ids.iter().zip(&self.boxes).enumerate() {
-            if counts(id) && (!bounds.is_finite() || shaft.may_hold(*bounds)) {
-                set |= 1 << bit;
-            }
-        }
-        Candidates::Some(set)
+        let set = self.ids.iter().enumerate().filter(|&(_, &id)| counts(id));
+        Candidates::Some(set.fold(0, |set, (bit, _)| set | 1 << bit))
     }
 
     /// See [`RayIndex::any_hit`], among the candidates.

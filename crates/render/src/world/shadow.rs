@@ -1,5 +1,6 @@
 //! What is left of light on its way: solid things stop it, cut-outs and (as an option) glass let a part through.
 
+use super::hull::Hull;
 use super::level::Candidates;
 use super::shaft::Shaft;
 use super::solid::{Solid, SurfaceAt};
@@ -8,7 +9,7 @@ use crate::material_eval::MaterialEval;
 use crate::phong::{fresnel, refract};
 use crate::texture_eval::TexturePoint;
 use glam::Vec3;
-use heliostat_geometry::{Aabb, Ray, SurfacePoint};
+use heliostat_geometry::{Ray, SurfacePoint};
 use heliostat_scene::material::{FresnelMode, Phong, Surface};
 use heliostat_scene::{Material, Object, Rgb, Scene};
 
@@ -26,18 +27,18 @@ impl World<'_> {
         self.transmittance_past(ray, time, Candidates::All)
     }
 
-    /// What may stop rays that leave a surface point, to the side of its normal, for the box `light` around a light.
+    /// What may stop rays that leave a surface point, to the side of its normal, for a light in the hull `light`.
     ///
     /// `own` is the object that the point is on.
-    pub(crate) fn blockers(&self, start: &SurfacePoint, own: Option<u32>, light: Aabb) -> Candidates {
+    pub(crate) fn blockers(&self, start: &SurfacePoint, own: Option<u32>, light: Hull) -> Candidates {
         // A ray starts at most so far from the point.
-        let moved = Vec3::splat(2.0 * start.p_err.element_sum());
+        let moved = 2.0 * start.p_err.element_sum();
         let shaft = Shaft::new(start.p, moved, light);
         let own = own.filter(|&own| self.solids[own as usize].is_left_by_rays(start));
-        self.level.candidates(&shaft, |i| {
+        self.level.candidates(|i| {
             self.shadows[i as usize] != Shadow::None
                 && own != Some(i)
-                && !self.solids[i as usize].lies_beside(&shaft)
+                && self.solids[i as usize].may_block(&shaft)
         })
     }
 

@@ -6,75 +6,78 @@
 //! # Source
 //! Haines and Wallace, "Shaft Culling for Efficient Ray-Traced Radiosity", EGWR 1991.
 
+use super::hull::Hull;
 use glam::Vec3;
-use heliostat_geometry::Aabb;
 use heliostat_geometry::error_bound::projection;
 
-/// The hull of a point and a box.
+/// The hull of a point and a light.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shaft {
     start: Vec3,
-    /// Half the size of the box in which the point may lie.
-    start_half: Vec3,
+    /// The point may lie so far away from there.
+    start_radius: f32,
+    light: Hull,
     /// From the point to the middle of the light.
     way: Vec3,
-    light_half: Vec3,
-    /// Along `way`: where the light begins and ends.
+    way_squared: f32,
+    /// Where the light begins and ends along `way`, times the length of `way`.
     light_depth: [f32; 2],
     /// Largest coordinates that take part.
     reach: Vec3,
 }
 
 impl Shaft {
-    /// The hull of a box of half size `start_half` around `start`, and `light`.
-    pub(super) fn new(start: Vec3, start_half: Vec3, light: Aabb) -> Self {
-        let centre = light.centre();
-        let light_half = (light.max - centre).max(centre - light.min);
-        let way = centre - start;
-        let (depth, spread) = (way.length_squared(), light_half.dot(way.abs()));
-        let reach = start.abs() + centre.abs() + light_half + start_half;
-        Self { start, start_half, way, light_half, light_depth: [depth - spread, depth + spread], reach }
+    /// The hull of a ball around `start` and `light`.
+    pub(super) fn new(start: Vec3, start_radius: f32, light: Hull) -> Self {
+        let way = light.centre - start;
+        let (way_squared, spread) = (way.length_squared(), light.extent(way));
+        let light_depth = [way_squared - spread, way_squared + spread];
+        let reach = start.abs() + light.reach() + start_radius;
+        Self { start, start_radius, light, way, way_squared, light_depth, reach }
     }
 
-    /// Whether all of the hull lies on one side of the plane through `origin` with unit normal `n`.
+    /// Whether all of it lies on one side of the plane through `origin` with unit normal `n`.
     pub(super) fn is_beside(&self, origin: Vec3, n: Vec3) -> bool {
-        let error = projection(self.reach + origin.abs(), n);
+        let error = projection(self.reach + origin.abs(), n) + self.start_radius;
         let start = n.dot(self.start - origin);
-        let light = n.dot(self.start + self.way - origin);
-        let (start_half, light_half) = (self.start_half.dot(n.abs()) + error, self.light_half.dot(n.abs()) + error);
-        (start > start_half && light > light_half) || (start < -start_half && light < -light_half)
+        let light = n.dot(self.light.centre - origin);
+        let light_error = self.light.extent(n) + error;
+        (start > error && light > light_error) || (start < -error && light < -light_error)
     }
 
-    /// Whether something in the box may stand between the point and the light; false only where nothing can.
-    pub(super) fn may_hold(&self, bounds: Aabb) -> bool {
-        let centre = bounds.centre();
-        let half = (bounds.max - centre).max(centre - bounds.min);
-        let (offset, reach) = (centre - self.start, self.reach + centre.abs() + half);
-        let solid = half + self.start_half;
+    /// Whether something in `solid` may stand between the point and the light; false only where nothing can.
+    pub(super) fn may_hold(&self, solid: &Hull) -> bool {
+        let (offset, reach) = (solid.centre - self.start, self.reach + solid.reach());
 
         // Along the way: behind the point, or behind the light.
-        let (depth, spread) = (offset.dot(self.way), solid.dot(self.way.abs()) + projection(reach, self.way));
-        let (near, far) = (depth - spread, depth + spread);
-        if far < 0.0 || near > self.light_depth[1] {
+        let extent = |axis: Vec3| {
+            solid.extent(axis) + self.start_radius * axis.abs().element_sum() + projection(reach, axis)
+        };
+        let (depth, spread) = (offset.dot(self.way), extent(self.way));
+        let far = depth + spread;
+        if far < self.light_depth[0].min(0.0) || depth - spread > self.light_depth[1] {
             return false;
         }
 
         // Across the way: the shaft widens from the point to the light, of which only the part up to `far` counts.
-        let share = if far < self.light_depth[0] { far / self.light_depth[0] } else { 1.0 };
+        let share = if (0.0..self.light_depth[0]).contains(&far) { far / self.light_depth[0] } else { 1.0 };
+        let is_beside = |axis: Vec3| {
+            let width = share * (self.light.extent(axis) + axis.dot(self.way).abs());
+            // False for a NaN, from numbers that overflow: such things are kept.
+            offset.dot(axis).abs() > width + extent(axis)
+        };
+        // Straight away from the middle of the shaft tells most; then what flat sides can tell.
         let d = self.way;
-        [Vec3::new(0.0, d.z, -d.y), Vec3::new(-d.z, 0.0, d.x), Vec3::new(d.y, -d.x, 0.0)].iter().all(|&axis| {
-            let across = axis.abs();
-            let width = share * (self.light_half.dot(across) + axis.dot(d).abs());
-            // Written so that a NaN, from numbers that overflow, keeps it.
-            !(offset.dot(axis).abs() > width + solid.dot(across) + projection(reach, axis))
-        })
+        let outward = offset - (depth / self.way_squared) * d;
+        let across = [Vec3::new(0.0, d.z, -d.y), Vec3::new(-d.z, 0.0, d.x), Vec3::new(d.y, -d.x, 0.0)];
+        !is_beside(outward) && !across.into_iter().any(is_beside)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use heliostat_geometry::Ray;
+    use heliostat_geometry::{Aabb, Ray};
     use proptest::prelude::*;
 
     fn vec3(range: f32) -> impl Strategy<Value = Vec3> {
@@ -106,23 +109,23 @@ mod tests {
             let ray = Ray::new(scale * start, scale * (target - start)).until(1.0);
             prop_assume!(planted.clip(&ray).is_some());
             let light = Aabb { min: scale * light.min, max: scale * light.max };
-            prop_assert!(Shaft::new(scale * start, Vec3::ZERO, light).may_hold(planted));
+            prop_assert!(Shaft::new(scale * start, 0.0, Hull::of_box(light)).may_hold(&Hull::of_box(planted)));
         }
     }
 
     #[test]
     fn boxes_beside_behind_and_beyond_are_culled() {
         let light = Aabb { min: Vec3::new(-1.0, 10.0, -1.0), max: Vec3::new(1.0, 10.0, 1.0) };
-        let shaft = Shaft::new(Vec3::ZERO, Vec3::ZERO, light);
+        let shaft = Shaft::new(Vec3::ZERO, 0.0, Hull::of_box(light));
         let unit_box = |x: f32, y: f32, z: f32| {
             let c = Vec3::new(x, y, z);
-            Aabb { min: c - 0.5, max: c + 0.5 }
+            Hull::of_box(Aabb { min: c - 0.5, max: c + 0.5 })
         };
-        assert!(shaft.may_hold(unit_box(0.0, 5.0, 0.0)));
+        assert!(shaft.may_hold(&unit_box(0.0, 5.0, 0.0)));
         // Halfway the shaft is half as wide as the light.
-        assert!(shaft.may_hold(unit_box(0.99, 4.6, 0.0)));
-        assert!(!shaft.may_hold(unit_box(1.2, 4.6, 0.0)));
-        assert!(!shaft.may_hold(unit_box(0.0, -2.0, 0.0)));
-        assert!(!shaft.may_hold(unit_box(0.0, 12.0, 0.0)));
+        assert!(shaft.may_hold(&unit_box(0.99, 4.6, 0.0)));
+        assert!(!shaft.may_hold(&unit_box(1.2, 4.6, 0.0)));
+        assert!(!shaft.may_hold(&unit_box(0.0, -2.0, 0.0)));
+        assert!(!shaft.may_hold(&unit_box(0.0, 12.0, 0.0)));
     }
 }

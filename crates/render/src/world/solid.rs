@@ -1,5 +1,6 @@
 //! One thing that rays can meet: a geometry at a place.
 
+use super::hull::Hull;
 use super::place::Place;
 use super::shaft::Shaft;
 use glam::Vec3;
@@ -17,6 +18,8 @@ pub(crate) struct Solid<'s> {
     pub(crate) place: Place<'s>,
     /// The box around it over the shutter, in world space; unbounded for the infinite plane, empty for an empty mesh.
     pub(crate) bounds: Aabb,
+    /// The same, but closer where it stands still.
+    hull: Hull,
 }
 
 /// What there is in local space.
@@ -66,11 +69,11 @@ impl<'s> Solid<'s> {
                 Body::Mesh { mesh: &scene.meshes[id.index()], tree: Arc::clone(&trees[id.index()]) }
             }
         };
-        let local = match &body {
-            Body::Shape(shape) => shape.geometry().bounds(),
-            Body::Mesh { mesh, .. } => mesh.bounds(),
+        let (local, shape) = match &body {
+            Body::Shape(shape) => (shape.geometry().bounds(), Some(*shape)),
+            Body::Mesh { mesh, .. } => (mesh.bounds(), None),
         };
-        Self { body, bounds: place.bounds(local), place }
+        Self { body, bounds: place.bounds(local), hull: Hull::new(local, shape, &place), place }
     }
 
     /// The nearest meeting in the range of the ray.
@@ -127,13 +130,13 @@ impl<'s> Solid<'s> {
         }
     }
 
-    /// Whether it is an infinite plane that has all of a shaft on one side.
-    pub(crate) fn lies_beside(&self, shaft: &Shaft) -> bool {
+    /// Whether it may meet a shaft.
+    pub(crate) fn may_block(&self, shaft: &Shaft) -> bool {
         match (&self.body, self.place) {
             (Body::Shape(Shape::Plane(_)), Place::Still(transform)) => {
-                shaft.is_beside(transform.point(Vec3::ZERO), transform.normal(Vec3::Y))
+                !shaft.is_beside(transform.point(Vec3::ZERO), transform.normal(Vec3::Y))
             }
-            _ => false,
+            _ => !self.bounds.is_finite() || shaft.may_hold(&self.hull),
         }
     }
 

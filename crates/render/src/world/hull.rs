@@ -1,0 +1,59 @@
+//! A convex hull around something, as a box or an ellipsoid in any position: how far it reaches along an axis.
+
+use super::place::Place;
+use glam::{DVec3, Vec3};
+use heliostat_geometry::{Aabb, Shape, Transform};
+
+/// A parallelepiped, or the ellipsoid inside it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hull {
+    pub(super) centre: Vec3,
+    /// From the centre to the middle of three faces.
+    edges: [Vec3; 3],
+    /// Whether the ellipsoid is meant.
+    is_round: bool,
+}
+
+impl Hull {
+    /// A box along the axes.
+    pub(crate) fn of_box(bounds: Aabb) -> Self {
+        let centre = bounds.centre();
+        let half = (bounds.max - centre).max(centre - bounds.min);
+        let edges = [Vec3::X * half.x, Vec3::Y * half.y, Vec3::Z * half.z];
+        Self { centre, edges, is_round: false }
+    }
+
+    /// Around the image of a shape, or of a thing with the box `local`; around all of its ways if it moves.
+    pub(crate) fn new(local: Aabb, shape: Option<&Shape>, place: &Place<'_>) -> Self {
+        match place {
+            Place::Still(transform) if local.is_finite() => Self::of_image(local, shape, transform),
+            _ => Self::of_box(place.bounds(local)),
+        }
+    }
+
+    fn of_image(local: Aabb, shape: Option<&Shape>, transform: &Transform) -> Self {
+        let linear = transform.matrix().matrix3;
+        let centre = 0.5 * (local.min.as_dvec3() + local.max.as_dvec3());
+        let half = local.max.as_dvec3() - centre;
+        // A disk lies in its rectangle as an ellipsoid does, with no height.
+        let is_round = matches!(shape, Some(Shape::Sphere(_) | Shape::Disk(_)));
+        let edge = |column: DVec3, length: f64| (length * column).as_vec3();
+        Self {
+            centre: transform.matrix().transform_point3(centre).as_vec3(),
+            edges: [edge(linear.x_axis, half.x), edge(linear.y_axis, half.y), edge(linear.z_axis, half.z)],
+            is_round,
+        }
+    }
+
+    /// Half of its length along `axis`, times the length of `axis`.
+    #[inline]
+    pub(super) fn extent(&self, axis: Vec3) -> f32 {
+        let along = Vec3::new(self.edges[0].dot(axis), self.edges[1].dot(axis), self.edges[2].dot(axis));
+        if self.is_round { along.length() } else { along.abs().element_sum() }
+    }
+
+    /// Largest magnitudes of the numbers that make up its points.
+    pub(super) fn reach(&self) -> Vec3 {
+        self.centre.abs() + self.edges[0].abs() + self.edges[1].abs() + self.edges[2].abs()
+    }
+}
