@@ -41,6 +41,11 @@ impl SurfacePoint {
         Ray::new(offset_origin(self.p, self.p_err, self.ng, dir), dir)
     }
 
+    /// Where all rays start that leave to the side of `ng`: worked out once for many of them.
+    pub fn departure(&self) -> Departure {
+        Departure { origin: offset_origin(self.p, self.p_err, self.ng, self.ng) }
+    }
+
     /// A ray to `target`, a point in free space, with `t` in `[0, 1]`.
     pub fn spawn_to(&self, target: Vec3) -> Ray {
         let origin = offset_origin(self.p, self.p_err, self.ng, target - self.p);
@@ -54,6 +59,26 @@ impl SurfacePoint {
     pub fn spawn_to_surface(&self, target: &Self) -> Ray {
         let back = self.p - target.p;
         self.spawn_to(offset_origin(target.p, target.p_err + segment_end(back), target.ng, back))
+    }
+}
+
+/// The common start of rays that leave a surface to the side of its normal; see [`SurfacePoint::departure`].
+///
+/// A direction to the other side gives a ray that meets the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Departure {
+    origin: Vec3,
+}
+
+impl Departure {
+    /// See [`SurfacePoint::spawn`].
+    pub fn spawn(&self, dir: Vec3) -> Ray {
+        Ray::new(self.origin, dir)
+    }
+
+    /// See [`SurfacePoint::spawn_to`].
+    pub fn spawn_to(&self, target: Vec3) -> Ray {
+        Ray { origin: self.origin, dir: target - self.origin, range: Interval { min: 0.0, max: 1.0 } }
     }
 }
 

@@ -34,7 +34,7 @@ pub mod warp;
 
 pub use aabb::Aabb;
 pub use frame::OrthonormalFrame;
-pub use hit::{Hit, SurfacePoint, SurfaceSample};
+pub use hit::{Departure, Hit, SurfacePoint, SurfaceSample};
 pub use mesh::{MeshError, TriMesh};
 pub use ray::{Interval, Ray};
 pub use shape::Shape;

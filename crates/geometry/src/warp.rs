@@ -5,7 +5,7 @@
 //! Directions are around `+z`; [`crate::OrthonormalFrame`] turns them. Maps onto shapes are in [`crate::shape`].
 
 use glam::{Vec2, Vec3};
-use std::f32::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4, PI, TAU};
+use std::f32::consts::{FRAC_1_PI, FRAC_PI_4, PI, TAU};
 
 /// A uniform point in the unit disk, the square's centre in the middle and its border on the rim.
 ///
@@ -25,12 +25,29 @@ pub fn square_to_disk(u: Vec2) -> Vec2 {
     if offset == Vec2::ZERO {
         return Vec2::ZERO;
     }
-    let (radius, angle) = if offset.x.abs() > offset.y.abs() {
-        (offset.x, FRAC_PI_4 * (offset.y / offset.x))
+    // Each quarter of the square, from diagonal to diagonal, goes to a quarter of the disk.
+    if offset.x.abs() > offset.y.abs() {
+        let (sin, cos) = sin_cos_of_eighth(offset.y / offset.x);
+        offset.x * Vec2::new(cos, sin)
     } else {
-        (offset.y, FRAC_PI_2 - FRAC_PI_4 * (offset.x / offset.y))
-    };
-    radius * Vec2::from_angle(angle)
+        let (sin, cos) = sin_cos_of_eighth(offset.x / offset.y);
+        offset.y * Vec2::new(sin, cos)
+    }
+}
+
+/// Sine and cosine of `share` of an eighth of a turn, for `share` in `[-1, 1]`.
+///
+/// The series of Taylor up to the power from which on nothing is left in an `f32`: what follows is below
+/// `(pi / 4)^10 / 10!`, less than half of the unit roundoff. Several times faster than the functions for all angles.
+fn sin_cos_of_eighth(share: f32) -> (f32, f32) {
+    let x = FRAC_PI_4 * share;
+    let x2 = x * x;
+    let sin = 1.0
+        - x2 * (1.0 / 6.0)
+            * (1.0 - x2 * (1.0 / 20.0) * (1.0 - x2 * (1.0 / 42.0) * (1.0 - x2 * (1.0 / 72.0))));
+    let cos =
+        1.0 - x2 * 0.5 * (1.0 - x2 * (1.0 / 12.0) * (1.0 - x2 * (1.0 / 30.0) * (1.0 - x2 * (1.0 / 56.0))));
+    (x * sin, cos)
 }
 
 /// The inverse of [`square_to_disk`].

@@ -107,6 +107,7 @@ impl<'a> ShadingPoint<'a> {
         };
         LitPoint {
             start,
+            departure: start.departure(),
             lifted,
             smooth: self.smooth,
             ns: self.ns,

@@ -47,12 +47,15 @@ enum Shortcut<'s> {
 impl<'s> AreaLight<'s> {
     /// An area light of the scene; `None` when its surface has no finite area above 0.
     pub(super) fn of_light(scene: &'s Scene, light: &'s Light) -> Option<Self> {
-        let LightKind::Area { geometry, transform, two_sided, falloff, .. } = &light.kind else { return None };
+        let LightKind::Area { geometry, transform, two_sided, falloff, .. } = &light.kind else {
+            return None;
+        };
         let flat = match geometry {
             Geometry::Shape(shape) => WorldFlat::new(shape, transform).map(Shortcut::Flat),
             Geometry::Mesh(_) => None,
         };
-        let sphere = || if *falloff == Falloff::InverseSquare { sphere_of(geometry, transform) } else { None };
+        let sphere =
+            || if *falloff == Falloff::InverseSquare { sphere_of(geometry, transform) } else { None };
         Some(Self {
             emitter: Emitter::new(scene, geometry, |_| true)?,
             place: Place::Still(transform),
@@ -138,7 +141,11 @@ impl<'s> AreaLight<'s> {
         let point = local.point(normal);
         let at = transform.surface_point(point.p, point.p_err, point.ng);
         let radiance = self.radiance_at(&EmitterSample { point, slot: 0 });
-        Some(LightSample { to_light: seen.dir, arriving: seen.solid_angle * radiance, target: self.target(at) })
+        Some(LightSample {
+            to_light: seen.dir,
+            arriving: seen.solid_angle * radiance,
+            target: self.target(at),
+        })
     }
 
     /// The unit direction of `way`, from a point to a point of the surface with normal `ng` that stands for `area`, and

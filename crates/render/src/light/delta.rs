@@ -2,8 +2,8 @@
 
 use super::{LightSample, Target};
 use glam::{Vec2, Vec3};
-use heliostat_geometry::{Aabb, OrthonormalFrame};
 use heliostat_geometry::warp::square_to_cone;
+use heliostat_geometry::{Aabb, OrthonormalFrame};
 use heliostat_scene::Rgb;
 use heliostat_scene::light::Falloff;
 use std::f32::consts::{FRAC_PI_4, PI};

@@ -1,19 +1,21 @@
 //! The light of all sources at one point of a surface, with its shadows.
 
-use super::{LightSample, PreparedLight, Target};
+use super::{PreparedLight, Target};
 use crate::counters::RayCounters;
 use crate::material_eval::PhongPoint;
-use crate::sampler::Sampler;
+use crate::sampler::{Points, Sampler};
 use crate::world::{Candidates, World};
 use glam::{Vec2, Vec3};
-use heliostat_geometry::{Ray, SurfacePoint};
+use heliostat_geometry::{Departure, SurfacePoint};
 use heliostat_scene::Rgb;
 
 /// A point that is lit, seen from one side.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LitPoint<'a> {
-    /// Where shadow rays start; its normal is turned to the viewer.
+    /// The point; its normal is turned to the viewer.
     pub(crate) start: SurfacePoint,
+    /// Where shadow rays start.
+    pub(crate) departure: Departure,
     /// The smooth normal on the viewer's side, without relief: light from behind it is not seen.
     pub(crate) smooth: Vec3,
     /// Whether `start` was lifted off the facet onto the smooth surface that the facets stand for.
@@ -42,22 +44,37 @@ pub(crate) fn lighting(
     }
     let mut sum = Rgb::ZERO;
     for light in world.lights() {
-        if light.samples == 1 {
+        sum += if light.samples == 1 {
             let u = if light.is_extended { sampler.next_2d() } else { Vec2::ZERO };
-            sum += from_sample(world, light, point, u, Candidates::All, counters);
+            from_sample(world, light, point, u, Candidates::All, counters)
         } else {
-            // Every point takes all samples: none decides by itself whether it lies in the penumbra.
-            let hull = light.hull(point.start.p, world.bounds());
-            let blockers =
-                hull.map_or(Candidates::All, |hull| world.blockers(&point.start, point.own, hull));
-            let mut parts = Rgb::ZERO;
-            for u in sampler.array_2d(light.samples) {
-                parts += from_sample(world, light, point, u, blockers, counters);
-            }
-            sum += parts / light.samples as f32;
-        }
+            let samples = sampler.array_2d(light.samples);
+            from_samples(world, light, point, samples, counters)
+        };
     }
     sum
+}
+
+/// The mean over samples of a light: every point takes all of them, none decides by itself whether it lies in the
+/// penumbra.
+fn from_samples(
+    world: &World<'_>,
+    light: &PreparedLight<'_>,
+    point: &LitPoint<'_>,
+    samples: Points,
+    counters: &mut RayCounters,
+) -> Rgb {
+    // Ask once for all samples what they have in common.
+    let blockers = match light.hull(point.start.p, world.bounds()) {
+        Some(hull) if hull.is_behind(point.start.p, point.smooth) => return Rgb::ZERO,
+        Some(hull) => world.blockers(&point.start, point.own, hull),
+        None => Candidates::All,
+    };
+    let mut sum = Rgb::ZERO;
+    for u in samples {
+        sum += from_sample(world, light, point, u, blockers, counters);
+    }
+    sum / light.samples as f32
 }
 
 /// What one sample of a light adds.
@@ -88,14 +105,10 @@ fn from_sample(
         return answer;
     }
     counters.shadow += 1;
-    answer * world.transmittance_past(&shadow_ray(&point.start, &sample), point.time, blockers)
-}
-
-/// The ray from a point to where its light comes from.
-fn shadow_ray(start: &SurfacePoint, sample: &LightSample) -> Ray {
-    match sample.target {
-        Target::Sky => start.spawn(sample.to_light),
-        Target::Point(p) => start.spawn_to(p),
-        Target::Surface(at) => start.spawn_to_surface(&at),
-    }
+    let ray = match sample.target {
+        Target::Sky => point.departure.spawn(sample.to_light),
+        Target::Point(p) => point.departure.spawn_to(p),
+        Target::Surface(at) => point.start.spawn_to_surface(&at),
+    };
+    answer * world.transmittance_past(&ray, point.time, blockers)
 }

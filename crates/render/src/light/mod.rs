@@ -111,7 +111,10 @@ impl<'s> LightTable<'s> {
         let ambient = |light: &&Light| matches!(light.kind, LightKind::Ambient);
         let declared = scene.lights.iter().filter_map(|light| prepare(scene, light));
         let shining = scene.objects.iter().filter_map(|object| {
-            Some(PreparedLight::new(SHINING_OBJECT_SAMPLES, Source::Area(AreaLight::of_object(scene, object)?)))
+            Some(PreparedLight::new(
+                SHINING_OBJECT_SAMPLES,
+                Source::Area(AreaLight::of_object(scene, object)?),
+            ))
         });
         Self {
             ambient: scene.lights.iter().filter(ambient).map(|light| light.intensity).sum(),

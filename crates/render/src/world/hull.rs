@@ -2,6 +2,7 @@
 
 use super::place::Place;
 use glam::{DVec3, Vec3};
+use heliostat_geometry::error_bound::projection;
 use heliostat_geometry::{Aabb, Shape, Transform};
 
 /// A parallelepiped, or the ellipsoid inside it.
@@ -43,6 +44,11 @@ impl Hull {
             edges: [edge(linear.x_axis, half.x), edge(linear.y_axis, half.y), edge(linear.z_axis, half.z)],
             is_round,
         }
+    }
+
+    /// Whether all of it lies behind the plane through `p` with normal `n`.
+    pub(crate) fn is_behind(&self, p: Vec3, n: Vec3) -> bool {
+        n.dot(self.centre - p) < -self.extent(n) - projection(self.reach() + p.abs(), n)
     }
 
     /// Half of its length along `axis`, times the length of `axis`.

@@ -139,13 +139,16 @@ impl Level {
         match (candidates, &self.tree) {
             (Candidates::Some(0), _) => false,
             (Candidates::Some(set), tree) if tree.is_none() || set.count_ones() as usize <= FEW => {
-                let slabs = Slabs::new(ray);
-                bits(set).any(|i| slabs.may_meet(ray, &self.boxes[i]) && hit(self.ids[i], ray))
+                // They are near the ray by their hulls: boxes would tell little more.
+                bits(set).any(|i| hit(self.ids[i], ray))
             }
             (_, Some(tree)) => tree.any_hit(ray, |i, ray| hit(self.ids[i as usize], ray)),
             (_, None) => {
                 let slabs = Slabs::new(ray);
-                self.ids.iter().zip(&self.boxes).any(|(&id, bounds)| slabs.may_meet(ray, bounds) && hit(id, ray))
+                self.ids
+                    .iter()
+                    .zip(&self.boxes)
+                    .any(|(&id, bounds)| slabs.may_meet(ray, bounds) && hit(id, ray))
             }
         }
     }
