@@ -29,10 +29,11 @@ impl Slabs {
         let reach = self.origin_reach + bounds.min.abs().max(bounds.max.abs()).max_element();
         let a = (bounds.min - self.origin) * self.inverse;
         let b = (bounds.max - self.origin) * self.inverse;
-        let padding = cell_padding(reach) * self.inverse.abs();
+        let padding = cell_padding(reach, reach) * self.inverse.abs();
         let near = (a.min(b) - padding).max_element().max(ray.range.min);
         let far = (a.max(b) + padding).min_element().min(ray.range.max);
-        // Written so that a NaN, from an infinite box, keeps it.
-        !(near > far)
+        // A NaN, from an infinite box, does not say that it misses.
+        let misses = near > far;
+        !misses
     }
 }
