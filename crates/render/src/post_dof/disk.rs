@@ -10,8 +10,9 @@ const STEPS: usize = 8;
 pub(super) struct Disk {
     /// Largest offset in the tables.
     largest: i32,
-    /// How far an offset lies from the centre: its length, or the radius of the polygon that it lies on.
-    distance: Vec<f32>,
+    /// How far an offset lies from the centre: its length, or the radius of the polygon that it lies on; for light from
+    /// points beyond the focus, and for light from nearer ones, which falls upside down.
+    distance: Vec<[f32; 2]>,
     /// Sum of the weights of a disk, by radius in steps.
     sums: Vec<f32>,
 }
@@ -21,10 +22,10 @@ impl Disk {
     pub(super) fn new(blades: u32, rotation: f32, largest: f64) -> Self {
         let largest = largest.ceil() as i32 + 1;
         let offsets = || (-largest..=largest).flat_map(|y| (-largest..=largest).map(move |x| (x, y)));
-        let distance: Vec<f32> =
-            offsets().map(|(x, y)| distance(x as f32, y as f32, blades, rotation)).collect();
+        let distance = |x: i32, y: i32| distance(x as f32, y as f32, blades, rotation);
+        let table: Vec<[f32; 2]> = offsets().map(|(x, y)| [distance(-x, -y), distance(x, y)]).collect();
         // Sorted, the offsets within a radius come first: each sum is exact, in a fixed order.
-        let mut sorted = distance.clone();
+        let mut sorted: Vec<f32> = table.iter().map(|&[far, _]| far).collect();
         sorted.sort_unstable_by(f32::total_cmp);
         let sum = |radius: f32| {
             let touched = sorted.iter().take_while(|&&d| d < radius + 0.5);
@@ -32,18 +33,17 @@ impl Disk {
         };
         let steps = largest as usize * STEPS;
         let sums = (0..=steps).map(|i| sum(i as f32 / STEPS as f32)).collect();
-        Self { largest, distance, sums }
+        Self { largest, distance: table, sums }
     }
 
-    /// The weight of a disk at an offset from its centre, x to the right and y down; `upside_down` as light from points
-    /// nearer than the focus falls.
-    pub(super) fn weight(&self, radius: f32, offset: (i32, i32), upside_down: bool) -> f32 {
-        let (x, y) = if upside_down { (-offset.0, -offset.1) } else { offset };
-        if x.abs().max(y.abs()) > self.largest {
-            return 0.0;
-        }
+    /// Distances for the pixels of a row, from `column` on, whose light falls on the pixel at (0, 0); y down.
+    ///
+    /// The offset *from* the other pixel is what counts, hence the turned signs in the table. Row and column lie within
+    /// the largest radius.
+    pub(super) fn row(&self, row: i32, column: i32) -> &[[f32; 2]] {
         let side = 2 * self.largest + 1;
-        edge(radius, self.distance[((y + self.largest) * side + x + self.largest) as usize])
+        let start = (row + self.largest) * side;
+        &self.distance[(start + column + self.largest) as usize..(start + side) as usize]
     }
 
     /// One over the sum of the weights of a disk.
@@ -55,8 +55,8 @@ impl Disk {
     }
 }
 
-/// 1 inside, 0 outside, falling over the one pixel around the border.
-fn edge(radius: f32, distance: f32) -> f32 {
+/// The weight of a disk at a distance: 1 inside, 0 outside, falling over the one pixel around the border.
+pub(super) fn edge(radius: f32, distance: f32) -> f32 {
     (radius + 0.5 - distance).clamp(0.0, 1.0)
 }
 

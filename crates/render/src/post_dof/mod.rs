@@ -27,7 +27,8 @@ mod disk;
 
 use crate::camera_ray::CameraRays;
 use crate::layers::Raster;
-use disk::Disk;
+use disk::{Disk, edge};
+use glam::Vec4;
 use heliostat_scene::camera::Focus;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
@@ -60,7 +61,7 @@ pub(crate) fn blur(
 /// A pixel of the sharp picture.
 #[derive(Clone, Copy, Debug)]
 struct Spot {
-    rgba: [f32; 4],
+    rgba: Vec4,
     depth: f32,
     /// Radius of its disk in pixels.
     radius: f32,
@@ -83,15 +84,8 @@ struct Source {
 /// A weighted sum of colours.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sum {
-    rgba: [f32; 4],
+    rgba: Vec4,
     weight: f32,
-}
-
-impl Sum {
-    fn add(&mut self, weight: f32, rgba: &[f32; 4]) {
-        (0..4).for_each(|c| self.rgba[c] += weight * rgba[c]);
-        self.weight += weight;
-    }
 }
 
 impl Source {
@@ -105,7 +99,8 @@ impl Source {
         let disk = Disk::new(focus.blades, focus.blade_rotation, largest);
         let spot = |(&rgba, &depth): (&[f32; 4], &f32)| {
             let radius = camera.blur_radius(focus, f64::from(depth)).min(largest) as f32;
-            Spot { rgba, depth, radius, share: disk.share(radius), is_near: depth < focus.distance }
+            let (rgba, share) = (Vec4::from_array(rgba), disk.share(radius));
+            Spot { rgba, depth, radius, share, is_near: depth < focus.distance }
         };
         let spots: Vec<Spot> = rgba.pixels.iter().zip(&depth.pixels).map(spot).collect();
         let (columns, rows) = (rgba.window.width() as usize, rgba.window.height() as usize);
@@ -120,38 +115,47 @@ impl Source {
         // A disk that ends half a pixel from the next centre changes nothing.
         let reach = (reach + 0.5).ceil() as usize - usize::from(reach <= 0.5);
         if reach == 0 {
-            return spot.rgba;
+            return spot.rgba.to_array();
         }
         let (mut nearer, mut rest, mut received) = (Sum::default(), Sum::default(), 0);
         for row in y.saturating_sub(reach)..(y + reach + 1).min(self.rows) {
-            for column in x.saturating_sub(reach)..(x + reach + 1).min(self.columns) {
-                let other = &self.spots[row * self.columns + column];
+            // Corners of the square lie outside of every disk.
+            let reach = half_chord(reach, row.abs_diff(y));
+            let columns = x.saturating_sub(reach)..(x + reach + 1).min(self.columns);
+            let weights = self.disk.row(row as i32 - y as i32, columns.start as i32 - x as i32);
+            let others = &self.spots[row * self.columns..][columns];
+            for (other, [far, near]) in others.iter().zip(weights) {
                 // What lies behind is seen through this pixel's disk, all else by its own.
                 let by = if other.depth > spot.depth { spot } else { other };
-                let offset = (x as i32 - column as i32, y as i32 - row as i32);
-                let weight = self.disk.weight(by.radius, offset, by.is_near) * by.share;
+                let weight = edge(by.radius, if by.is_near { *near } else { *far }) * by.share;
                 if weight > 0.0 {
                     received += 1;
                     let sum = if other.depth < spot.depth { &mut nearer } else { &mut rest };
-                    sum.add(weight, &other.rgba);
+                    sum.rgba += weight * other.rgba;
+                    sum.weight += weight;
                 }
             }
         }
-        if received == 1 { spot.rgba } else { over(&nearer, &rest) }
+        if received == 1 { spot.rgba.to_array() } else { over(&nearer, &rest).to_array() }
     }
+}
+
+/// Half the chord of a circle of radius `reach` + 1 at a distance of `rows` from its centre, rounded up.
+fn half_chord(reach: usize, rows: usize) -> usize {
+    let square = (reach + 1) * (reach + 1) - rows * rows;
+    reach.min(square.isqrt() + 1)
 }
 
 /// The nearer sum, which covers by its weight, over the rest, normalised.
 ///
 /// Written so that what is 1 in all parts stays 1 to the bit: an opaque picture stays opaque.
-fn over(nearer: &Sum, rest: &Sum) -> [f32; 4] {
+fn over(nearer: &Sum, rest: &Sum) -> Vec4 {
     // The pixel itself is part of the rest: its weight is not 0.
-    let rest = rest.rgba.map(|v| v / rest.weight);
+    let rest = rest.rgba / rest.weight;
     if nearer.weight == 0.0 {
         return rest;
     }
-    let cover = nearer.weight.min(1.0);
-    std::array::from_fn(|c| rest[c] + cover * (nearer.rgba[c] / nearer.weight - rest[c]))
+    rest + nearer.weight.min(1.0) * (nearer.rgba / nearer.weight - rest)
 }
 
 /// Per block, the largest radius among the pixels whose disks touch the block.
