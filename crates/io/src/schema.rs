@@ -19,12 +19,19 @@ pub fn json_schema() -> Value {
 /// TOML has no null: an optional key is a key that may be left out.
 fn without_null(schema: &mut Schema) {
     let Some(object) = schema.as_object_mut() else { return };
+    // Defaults that are no plain value say no more than "may be left out".
+    if object.get("default").is_some_and(|value| value.is_null() || value.is_object() || value.is_array()) {
+        object.remove("default");
+    }
     if let Some(Value::Array(types)) = object.get_mut("type") {
         types.retain(|name| name != "null");
         if let [only] = types.as_slice() {
             let only = only.clone();
             object.insert("type".to_owned(), only);
         }
+    }
+    if let Some(Value::Array(values)) = object.get_mut("enum") {
+        values.retain(|value| !value.is_null());
     }
     let is_null = |branch: &Value| branch.get("type").is_some_and(|name| name == "null");
     let Some(Value::Array(branches)) = object.get_mut("anyOf") else { return };

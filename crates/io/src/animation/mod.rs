@@ -1,7 +1,7 @@
 //! `[[animation]]`: keyframes on any number of the scene file.
 //!
-//! The target is a path through the file: a section, the name of one of its tables where it has several, and keys; an index
-//! picks a component. Names with dots in them stand in quotes: `object."a.b".translate`. Before the first key and
+//! The target is a path through the file: a section, the name of one of its tables where it has several, and keys; an index,
+//! or `x`, `y`, `z`, picks a component. Names with dots in them stand in quotes: `object."a.b".translate`. Before the first key and
 //! after the last the value rests.
 //!
 //! | interpolation | between two keys |

@@ -28,10 +28,14 @@ impl Node {
             Value::Date => Unexpected::Other("a date"),
             Value::Array(_) => Unexpected::Seq,
             Value::Table(_) => Unexpected::Map,
+            Value::Refused(_) => Unexpected::Other("no value"),
         }
     }
 
     fn fault_expected(&self, what: &str) -> Fault {
+        if let Value::Refused(fault) = &self.value {
+            return fault.clone().or_at(self.span);
+        }
         Fault::new(format!("expected {what}, found {}", super::fault::described(self.unexpected())))
             .or_at(self.span)
     }
@@ -43,12 +47,17 @@ impl Node {
             Value::Float(v) | Value::Animated(v) => visitor.visit_f64(*v),
             Value::Text(v) => visitor.visit_borrowed_str(v),
             Value::Date => Err(Error::invalid_type(self.unexpected(), &visitor)),
+            Value::Refused(fault) => Err(fault.clone()),
             Value::Array(items) => {
-                let mut items = items.iter();
-                let value = visitor.visit_seq(Items(&mut items))?;
-                match items.next() {
-                    None => Ok(value),
-                    Some(_) => Err(Fault::new(format!("{} values too many", 1 + items.len()))),
+                let mut rest = items.iter();
+                let value = visitor.visit_seq(Items(&mut rest))?;
+                match rest.len() {
+                    0 => Ok(value),
+                    left => Err(Fault::new(format!(
+                        "expected an array of {} values, found {}",
+                        items.len() - left,
+                        items.len()
+                    ))),
                 }
             }
             Value::Table(table) => {

@@ -90,7 +90,14 @@ impl Error for Fault {
     }
 
     fn invalid_type(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
-        Self::new(format!("expected {}, found {}", plain(&expected.to_string()), described(found)))
+        let expected = plain(&expected.to_string());
+        let fault = Self::new(format!("expected {expected}, found {}", described(found)));
+        match found {
+            Unexpected::Str(text) if is_bare_value(text) => fault.with_help("remove the quotes"),
+            Unexpected::Str(_) | Unexpected::Map | Unexpected::Seq => fault,
+            _ if expected.contains("in quotes") => fault.with_help("put it in quotes"),
+            _ => fault,
+        }
     }
 
     fn invalid_value(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
@@ -124,6 +131,11 @@ impl Error for Fault {
     fn duplicate_field(name: &'static str) -> Self {
         Self::new(format!("key {} is there twice", quote(name))).with_help("remove one")
     }
+}
+
+/// Whether a text would be a number or a truth value without its quotes.
+fn is_bare_value(text: &str) -> bool {
+    matches!(text, "true" | "false") || text.parse::<f64>().is_ok()
 }
 
 /// serde's names of Rust types in the words of a scene file.

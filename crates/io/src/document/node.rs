@@ -24,6 +24,8 @@ pub(crate) enum Value {
     Date,
     Array(Vec<Node>),
     Table(Table),
+    /// No value: whoever reads it gets the fault.
+    Refused(Fault),
 }
 
 /// A key and where it was written.
@@ -68,6 +70,7 @@ impl Node {
             Value::Date => "a date",
             Value::Array(_) => "an array",
             Value::Table(_) => "a table",
+            Value::Refused(_) => "no value",
         }
     }
 

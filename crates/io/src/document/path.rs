@@ -13,9 +13,14 @@ pub(crate) struct Segment {
 }
 
 impl Segment {
-    /// The part as an index of an array.
+    /// The part as an index of an array: a number, or `x`, `y`, `z` for the first three.
     pub(crate) fn index(&self) -> Option<usize> {
-        self.text.parse().ok()
+        match self.text.as_str() {
+            "x" => Some(0),
+            "y" => Some(1),
+            "z" => Some(2),
+            number => number.parse().ok(),
+        }
     }
 }
 

@@ -95,8 +95,7 @@ impl Assets {
     /// When the file cannot be read, is damaged, or has no faces.
     pub(crate) fn model(&mut self, table: &ModelTable) -> Result<Arc<ObjModel>, Trouble> {
         let angle = smooth_angle(table.smooth_angle);
-        let model = self.obj(&table.file, angle, Split::Groups, table.made_by.as_deref())?;
-        if model.objects.is_empty() { Err(without_faces(&table.file).into()) } else { Ok(model) }
+        self.obj(&table.file, angle, Split::Groups, table.made_by.as_deref())
     }
 
     /// An OBJ file that is the whole scene.
@@ -104,13 +103,8 @@ impl Assets {
     /// # Errors
     /// When the file cannot be read, is damaged, or has no faces.
     pub(crate) fn lone_model(&mut self, path: &Path) -> Result<Arc<ObjModel>, Trouble> {
-        let model =
-            load_obj(path, &ObjOptions::default(), &mut self.images[0]).map_err(Trouble::Elsewhere)?;
-        if model.objects.is_empty() {
-            let error = LoadError::new(path, "has no faces").with_help("name an OBJ file with `f` lines");
-            return Err(Trouble::Elsewhere(error));
-        }
-        Ok(Arc::new(model))
+        let model = load_obj(path, &ObjOptions::default(), &mut self.images[0]);
+        model.map(Arc::new).map_err(Trouble::Elsewhere)
     }
 
     fn obj(

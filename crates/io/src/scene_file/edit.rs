@@ -1,6 +1,6 @@
 //! Setting one value of a document by its path: what keyframes and `--set` have in common.
 //!
-//! A path is a section, the name of one of its tables where it has several, and keys; an index picks a
+//! A path is a section, the name of one of its tables where it has several, and keys; an index, or `x`, `y`, `z`, picks a
 //! component of an array. A number that stands for an array (`scale = 2`, a grey) becomes that array when a component of it
 //! is set, and so does a `translate`, `rotate`, `scale`, `position` or `up` that was left out.
 
@@ -77,7 +77,7 @@ impl Editor<'_> {
             return Ok(());
         };
         if node.number().is_some() && segment.index().is_some() {
-            self.spread(node);
+            self.spread(node, segment.span);
         }
         let kind = node.kind();
         match &mut node.value {
@@ -86,11 +86,8 @@ impl Editor<'_> {
                     *table.entry(key(segment), || empty_table(segment.span)) = value;
                     return Ok(());
                 }
-                let child = match (table.get(&segment.text), self.path[at + 1].index()) {
-                    (None, Some(_)) => self.absent_array(at)?,
-                    _ => empty_table(segment.span),
-                };
-                self.set_in(table.entry(key(segment), || child), at + 1, value)
+                let child = || self.absent(segment, &self.path[at + 1]);
+                self.set_in(table.entry(key(segment), child), at + 1, value)
             }
             Value::Array(items) => {
                 let count = items.len();
@@ -101,6 +98,8 @@ impl Editor<'_> {
                         .or_at(segment.span)),
                 }
             }
+            // Reading it will tell.
+            Value::Refused(_) => Ok(()),
             _ => {
                 let before = &self.path[at - 1];
                 Err(Fault::new(format!("{} is {kind}, it has no parts", quote(&before.text)))
@@ -111,30 +110,34 @@ impl Editor<'_> {
     }
 
     /// Makes the array that a number stands for.
-    fn spread(&self, node: &mut Node) {
+    fn spread(&self, node: &mut Node, span: Span) {
         let count = if self.section == "texture" { 2 } else { 3 };
-        node.value = Value::Array(vec![node.clone(); count]);
+        *node = Node { span, value: Value::Array(vec![node.clone(); count]) };
     }
 
-    /// The array that a key has when it is left out.
-    fn absent_array(&self, at: usize) -> Result<Node, Fault> {
-        let segment = &self.path[at];
+    /// What stands for a key that is left out, when the path goes on with `next`.
+    fn absent(&self, segment: &Segment, next: &Segment) -> Node {
         let numbers: &[f64] = match (self.section, segment.text.as_str()) {
             ("texture", "scale") => &[1.0, 1.0],
             ("texture", "offset") => &[0.0, 0.0],
             (_, "scale") => &[1.0, 1.0, 1.0],
             (_, "translate" | "rotate") | ("camera", "position") => &[0.0, 0.0, 0.0],
             ("camera", "up") => &[0.0, 1.0, 0.0],
-            _ => {
-                let name = quote(&segment.text);
-                return Err(Fault::new(format!("{name} is not in the file, so it has no components"))
-                    .with_help(format!("write {name} there, or set all of it"))
-                    .or_at(segment.span));
-            }
+            _ if next.index().is_some() => return without_components(segment),
+            _ => return empty_table(segment.span),
         };
         let item = |&number: &f64| Node { span: segment.span, value: Value::Float(number) };
-        Ok(Node { span: segment.span, value: Value::Array(numbers.iter().map(item).collect()) })
+        Node { span: segment.span, value: Value::Array(numbers.iter().map(item).collect()) }
     }
+}
+
+/// Stands for a key that is left out and has no array to take a component of. It is refused when it is read, because an
+/// unknown key is refused before that.
+fn without_components(segment: &Segment) -> Node {
+    let name = quote(&segment.text);
+    let fault = Fault::new(format!("{name} is not in the file, so it has no components"))
+        .with_help(format!("write {name} there, or set all of it"));
+    Node { span: segment.span, value: Value::Refused(fault) }
 }
 
 fn key(segment: &Segment) -> Key {
