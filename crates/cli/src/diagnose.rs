@@ -4,6 +4,7 @@
 use crate::exit::Exit;
 use crate::out;
 use heliostat_io::SaveError;
+use heliostat_render::RenderError;
 use heliostat_io::error::{LoadError, Place, Report, Warning};
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents,
@@ -53,6 +54,17 @@ impl From<LoadError> for Failure {
 impl From<SaveError> for Failure {
     fn from(error: SaveError) -> Self {
         Self::new(Exit::Output, error.to_string())
+    }
+}
+
+impl From<RenderError> for Failure {
+    fn from(error: RenderError) -> Self {
+        // Everything else is a number of the scene out of its range.
+        let exit = match error {
+            RenderError::OutOfMemory { .. } | RenderError::Threads(_) => Exit::Failed,
+            _ => Exit::Input,
+        };
+        Self::new(exit, error.to_string())
     }
 }
 

@@ -9,6 +9,7 @@ mod diagnose;
 mod exit;
 mod frame_name;
 mod memory;
+mod open;
 mod out;
 mod output;
 mod progress;

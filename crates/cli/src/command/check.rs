@@ -40,11 +40,11 @@ pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
 /// All warnings, and the error that ended the search.
 fn findings(args: &CheckArgs) -> (Vec<heliostat_io::Warning>, Option<LoadError>) {
     let mut warnings = Vec::new();
-    let source = match open::source(&args.scene, &args.set) {
+    let source = match open::source(&args.scene, &args.set, None) {
         Ok(source) => source,
         Err(error) => return (warnings, Some(error)),
     };
-    let first = open::first_frame(&source);
+    let first = source.first_frame();
     let last = source.frames().map_or(first, |frames| *frames.end());
     for frame in [first, last] {
         match source.shot(frame) {

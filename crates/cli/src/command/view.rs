@@ -5,9 +5,10 @@ use crate::diagnose::Failure;
 use crate::exit::Exit;
 use crate::output::{beside_cwd, check_writable};
 use crate::{out, progress};
+use heliostat_io::atomic::write_atomically;
 use heliostat_io::image_file::{Limits, read_frame};
-use heliostat_io::png_file::{PngBits, PngOptions, write_png};
-use heliostat_io::{View, ViewTransform};
+use heliostat_io::png_file::{PngBits, PngOptions, encode_png};
+use heliostat_io::{LoadError, View, ViewTransform};
 
 /// Reads, views, writes.
 pub(crate) fn run(args: &ViewArgs) -> Result<Exit, Failure> {
@@ -28,7 +29,8 @@ pub(crate) fn run(args: &ViewArgs) -> Result<Exit, Failure> {
     let frame = read_frame(&args.image, &Limits::default())?;
     let view = View { transform: args.view.into(), exposure: args.exposure };
     let options = PngOptions { bits: bits(args.bits), view, layer: args.layer.clone() };
-    write_png(&output, &frame, &options)?;
+    let png = encode_png(&frame, &options).map_err(|e| LoadError::new(&args.image, e))?;
+    write_atomically(&output, |out| out.write_all(&png))?;
     out::line(format_args!("Saved: '{}'", progress::clean(&output.to_string_lossy())));
     Ok(Exit::Done)
 }

@@ -22,7 +22,7 @@ pub(crate) fn run(args: &IndexArgs) -> Result<Exit, Failure> {
     for path in args.export.iter().chain(&args.heatmap) {
         check_writable(path)?;
     }
-    let shot = open::first_shot(&args.scene, &[])?;
+    let shot = open::first_shot(&args.scene)?;
     let presets = args.preset.map_or(vec![Preset::Midpoint, Preset::Sah], |preset| vec![preset]);
     let built: Vec<_> = presets
         .iter()

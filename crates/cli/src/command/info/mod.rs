@@ -1,7 +1,7 @@
 //! `heliostat info`: what is in a scene, a model or an image.
 
 mod image;
-//mod scene;
+mod scene;
 
 use crate::args::InfoArgs;
 use crate::diagnose::Failure;
@@ -14,11 +14,7 @@ pub(crate) fn run(args: &InfoArgs) -> Result<Exit, Failure> {
         .file
         .extension()
         .is_some_and(|e| ["toml", "obj"].iter().any(|scene| e.eq_ignore_ascii_case(scene)));
-    let info = if is_scene {
-        return Err(Failure::usage("scenes are not read yet"));
-    } else {
-        image::info(&args.file)?
-    };
+    let info = if is_scene { scene::info(&args.file)? } else { image::info(&args.file)? };
     if args.json {
         out::line(format_args!("{:#}", info.json));
     } else {

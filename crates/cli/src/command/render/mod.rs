@@ -31,7 +31,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Exit, Failure> {
     let planned = outputs.iter().map(|output| output.path(0));
     planned.chain(args.run.stats.clone()).try_for_each(|path| check_writable(&path))?;
     let signals = Signals::install()?;
-    let source = open::source(&args.scene, &settings::overrides(args))?;
+    let source = open::source(&args.scene, &settings::overrides(args), args.picture.camera.as_deref())?;
     let frames = frames(args, &source)?;
     let progress = Progress::new(args.run.progress, frames.len());
     let report = Report::new(&args.scene, args.run.threads.into());
@@ -61,7 +61,7 @@ fn frames(args: &RenderArgs, source: &Source) -> Result<Vec<i32>, Failure> {
         (Some(FrameList::All), None) => Err(Failure::usage(
             "the scene has no frames of its own; write first_frame and last_frame under [time] in it, or --frames 1-48",
         )),
-        (None, _) => Ok(vec![open::first_frame(source)]),
+        (None, _) => Ok(vec![source.first_frame()]),
     }
 }
 

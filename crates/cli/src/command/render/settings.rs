@@ -1,10 +1,10 @@
 //! Flags over the scene: what `render` was told beats what the file says.
 
 use crate::args::{ExrDepth, Integrator, Layer, RenderArgs};
+use crate::command::view::bits;
 use crate::diagnose::Failure;
-use crate::exit::Exit;
-use heliostat_io::{Shot, nearest};
-use heliostat_scene::Scene;
+use heliostat_io::Shot;
+use heliostat_scene::frame::Depth;
 use heliostat_scene::settings::{IntegratorKind, Layers};
 
 /// The values of the scene file that flags replace before it is read: `--set`, and the size, on which the fitted camera of
@@ -28,9 +28,6 @@ pub(super) fn apply(args: &RenderArgs, shot: &mut Shot) -> Result<(), Failure> {
     if !picture.aov.is_empty() {
         settings.layers = layers(&picture.aov);
     }
-    if let Some(name) = &picture.camera {
-        settings.camera = camera(&shot.scene, name)?;
-    }
     let pixels = settings.pixels();
     if pixels.x0 >= pixels.x1 || pixels.y0 >= pixels.y1 {
         let (width, height) = (settings.width, settings.height);
@@ -40,10 +37,10 @@ pub(super) fn apply(args: &RenderArgs, shot: &mut Shot) -> Result<(), Failure> {
     }
     shot.view.transform = output.view.map_or(shot.view.transform, Into::into);
     shot.view.exposure = output.exposure.unwrap_or(shot.view.exposure);
-    shot.output.png_bits = output.png_bits.unwrap_or(shot.output.png_bits);
+    shot.output.png_bits = output.png_bits.map_or(shot.output.png_bits, bits);
     shot.output.exr_depth = output.exr_depth.map_or(shot.output.exr_depth, |depth| match depth {
-        ExrDepth::Half => heliostat_scene::frame::Depth::Half,
-        ExrDepth::Float => heliostat_scene::frame::Depth::Float,
+        ExrDepth::Half => Depth::Half,
+        ExrDepth::Float => Depth::Float,
     });
     Ok(())
 }
@@ -74,12 +71,4 @@ fn layers(names: &[Layer]) -> Layers {
         }
     }
     layers
-}
-
-fn camera(scene: &Scene, name: &str) -> Result<usize, Failure> {
-    scene.cameras.iter().position(|c| c.name == name).ok_or_else(|| {
-        let names = scene.cameras.iter().map(|c| c.name.as_str());
-        let help = nearest::suggestion(name, names).unwrap_or_else(|| "see `heliostat info SCENE`".to_owned());
-        Failure::new(Exit::Input, format!("--camera: the scene has no camera `{name}`; {help}"))
-    })
 }

@@ -1,0 +1,150 @@
+//! What is in a scene or a model.
+
+use super::Info;
+use crate::diagnose::Failure;
+use crate::table::{self, Table};
+use heliostat_geometry::{Aabb, Shape};
+use heliostat_io::{OpenOptions, Shot};
+use heliostat_scene::light::LightKind;
+use heliostat_scene::object::Geometry;
+use heliostat_scene::texture::Pattern;
+use heliostat_scene::{Object, Scene};
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::Path;
+
+/// Opens the scene at its first frame and counts.
+pub(super) fn info(path: &Path) -> Result<Info, Failure> {
+    let source = heliostat_io::open(path, &OpenOptions::default())?;
+    let frames = source.frames();
+    let shot = source.shot(source.first_frame())?;
+    let frames = frames.map(|f| [*f.start(), *f.end()]);
+    let json = json(path, &shot, frames, source.frame_rate());
+    Ok(Info { text: text(&shot, &json), json })
+}
+
+fn json(path: &Path, shot: &Shot, frames: Option<[i32; 2]>, frame_rate: f64) -> Value {
+    let Shot { scene, settings, warnings, .. } = shot;
+    let each_mesh: usize = scene.meshes.iter().map(|m| m.triangles.len()).sum();
+    let instanced: usize = scene.objects.iter().map(|o| triangles(scene, o)).sum();
+    let bounds = scene.meshes.iter().fold(Aabb::EMPTY, |b, m| b.union(m.bounds()));
+    json!({
+        "path": path.to_string_lossy(),
+        "kind": "scene",
+        "size": [settings.width, settings.height],
+        "samples": settings.samples,
+        "frames": frames,
+        "frame_rate": frame_rate,
+        "triangles": each_mesh,
+        "instanced_triangles": instanced,
+        "mesh_bounds": (!bounds.is_empty()).then(|| [bounds.min.to_array(), bounds.max.to_array()]),
+        "objects": scene.objects.iter().map(|o| object(scene, o)).collect::<Vec<_>>(),
+        "lights": scene.lights.iter().map(|l| json!({
+            "name": l.name, "kind": light_kind(&l.kind), "samples": l.samples,
+        })).collect::<Vec<_>>(),
+        "cameras": scene.cameras.iter().map(|c| c.name.as_str()).collect::<Vec<_>>(),
+        "materials": scene.materials.iter().map(|m| m.name.as_str()).collect::<Vec<_>>(),
+        "textures": scene.textures.iter().map(|t| texture(&t.name, &t.pattern)).collect::<Vec<_>>(),
+        "warnings": warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+    })
+}
+
+fn object(scene: &Scene, object: &Object) -> Value {
+    json!({
+        "name": object.name,
+        "kind": match &object.geometry {
+            Geometry::Shape(shape) => shape_kind(shape),
+            Geometry::Mesh(_) => "mesh",
+        },
+        "triangles": triangles(scene, object),
+        "materials": object.materials.iter().map(|m| scene.materials[m.index()].name.as_str()).collect::<Vec<_>>(),
+        "moving": object.motion.is_moving(),
+    })
+}
+
+fn triangles(scene: &Scene, object: &Object) -> usize {
+    match &object.geometry {
+        Geometry::Mesh(id) => scene.meshes[id.index()].triangles.len(),
+        Geometry::Shape(_) => 0,
+    }
+}
+
+fn shape_kind(shape: &Shape) -> &'static str {
+    match shape {
+        Shape::Sphere(_) => "sphere",
+        Shape::Cuboid(_) => "cuboid",
+        Shape::Plane(_) => "plane",
+        Shape::Rectangle(_) => "rectangle",
+        Shape::Disk(_) => "disk",
+        Shape::Cylinder(_) => "cylinder",
+        Shape::Cone(_) => "cone",
+        Shape::Torus(_) => "torus",
+        Shape::Triangle(_) => "triangle",
+    }
+}
+
+fn light_kind(kind: &LightKind) -> &'static str {
+    match kind {
+        LightKind::Ambient => "ambient",
+        LightKind::Point { .. } => "point",
+        LightKind::Directional { .. } => "directional",
+        LightKind::Spot { .. } => "spot",
+        LightKind::Area { .. } => "area",
+    }
+}
+
+fn texture(name: &str, pattern: &Pattern) -> Value {
+    match pattern {
+        Pattern::Image { image, .. } => json!({
+            "name": name, "kind": "image", "size": [image.width, image.height],
+            "channels": image.channels, "bytes": image.bytes(),
+        }),
+        Pattern::Checker { .. } => json!({ "name": name, "kind": "checker" }),
+        Pattern::Missing => json!({ "name": name, "kind": "missing" }),
+    }
+}
+
+/// The same facts as lines; long lists are cut.
+fn text(shot: &Shot, json: &Value) -> String {
+    const LONGEST: usize = 40;
+    let scene = &shot.scene;
+    let mut text = String::new();
+    let mut line = |name: &str, value: String| {
+        // Writing into a `String` cannot fail.
+        let _ = writeln!(text, "{name:<10} {value}");
+    };
+    line("scene", json["path"].as_str().unwrap_or_default().to_owned());
+    line("picture", format!("{} x {} pixels, {} samples", shot.settings.width, shot.settings.height, shot.settings.samples));
+    if let Some([first, last]) = json["frames"].as_array().map(|f| [&f[0], &f[1]]) {
+        line("frames", format!("{first} to {last}, {} per second", json["frame_rate"]));
+    }
+    let as_count = |key: &str| table::count(json[key].as_u64().unwrap_or_default() as usize);
+    line("triangles", format!("{}, {} with repetitions", as_count("triangles"), as_count("instanced_triangles")));
+    line("cameras", names(scene.cameras.iter().map(|c| c.name.as_str())));
+    line("materials", names(scene.materials.iter().map(|m| m.name.as_str())));
+    line("textures", names(scene.textures.iter().map(|t| t.name.as_str())));
+    line("lights", names(scene.lights.iter().map(|l| l.name.as_str())));
+    line("objects", table::count(scene.objects.len()));
+    let mut objects = Table::new(["name", "kind", "triangles"]);
+    for object in json["objects"].as_array().into_iter().flatten().take(LONGEST) {
+        let cell = |key: &str| object[key].as_str().unwrap_or_default().to_owned();
+        let triangles = object["triangles"].as_u64().unwrap_or_default() as usize;
+        objects.row([cell("name"), cell("kind"), table::count(triangles)]);
+    }
+    text.push_str(&objects.to_string());
+    if let Some(more) = scene.objects.len().checked_sub(LONGEST).filter(|&n| n > 0) {
+        let _ = writeln!(text, "  and {more} more (--json lists all)");
+    }
+    for warning in &shot.warnings {
+        let _ = writeln!(text, "warning: {warning}");
+    }
+    text
+}
+
+fn names<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {
+    const LONGEST: usize = 12;
+    let count = names.len();
+    let shown: Vec<_> = names.take(LONGEST).collect();
+    let more = if count > LONGEST { ", ..." } else { "" };
+    if count == 0 { "none".to_owned() } else { format!("{count}: {}{more}", shown.join(", ")) }
+}
