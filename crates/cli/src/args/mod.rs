@@ -15,7 +15,7 @@ pub(crate) use compare::{CompareArgs, Metric};
 pub(crate) use index::{IndexArgs, Preset};
 pub(crate) use info::InfoArgs;
 pub(crate) use man::{CompletionsArgs, ManArgs};
-pub(crate) use render::{Compression, ExrDepth, Integrator, Layer, ProgressMode, RenderArgs};
+pub(crate) use render::{Compression, ExrDepth, Integrator, Layer, OutputArgs, ProgressMode, RenderArgs};
 pub(crate) use video::VideoArgs;
 pub(crate) use view::{ViewArgs, ViewName};
 

@@ -127,7 +127,7 @@ impl Progress {
         if let Sink::Lines(lines) = &self.sink {
             lines.saved(self.lock().frame, path);
         }
-        self.result(&format!("Saved: '{}'", text::clean(&path.to_string_lossy())));
+        self.result(&format!("Saved: '{}'", clean(&path.to_string_lossy())));
     }
 
     /// The frame is done; it took so long.

@@ -23,9 +23,11 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
+use trace::Traced;
 
 /// Renders what the arguments ask for.
 pub(crate) fn run(args: &RenderArgs) -> Result<Exit, Failure> {
+    let started = Instant::now();
     let outputs = outputs(&args.output.outputs, &args.scene, args.picture.frames.is_some())?;
     // Hours of rendering must not end at a folder that is not there.
     let planned = outputs.iter().map(|output| output.path(0));
@@ -34,7 +36,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Exit, Failure> {
     let source = open::source(&args.scene, &settings::overrides(args), args.picture.camera.as_deref())?;
     let frames = frames(args, &source)?;
     let progress = Progress::new(args.run.progress, frames.len());
-    let report = Report::new(&args.scene, args.run.threads.into());
+    let report = Report::new(&args.scene, args.run.threads.into(), started);
     let mut run = Run {
         args,
         outputs: &outputs,
@@ -113,7 +115,7 @@ impl Run<'_> {
         if traced.is_empty() {
             self.progress.warn("stopped before the first sample: nothing is saved");
         } else {
-            saved = self.save(&shot, &traced, frame)?;
+            saved = self.save(&shot, &mut traced, frame)?;
         }
         let save_seconds = save_start.elapsed().as_secs_f64();
         self.report.add(frame, &traced, &saved, load_seconds, save_seconds);
@@ -122,12 +124,13 @@ impl Run<'_> {
     }
 
     /// Writes all outputs of a frame and tells their names.
-    fn save(&self, shot: &Shot, traced: &trace::Traced, frame: i32) -> Result<Vec<PathBuf>, Failure> {
+    fn save(&self, shot: &Shot, traced: &mut Traced, frame: i32) -> Result<Vec<PathBuf>, Failure> {
+        let style = save::Style::new(&self.args.output, shot);
+        style.prepare(&mut traced.frame);
         let mut saved = Vec::new();
         for output in self.outputs {
             let path = if traced.finished { output.path(frame) } else { output.unfinished(frame) };
-            let compression = self.args.output.compression;
-            let notes = save::save(output.format, &path, shot, &traced.frame, compression)?;
+            let notes = style.save(output.format, &path, &traced.frame)?;
             notes.iter().for_each(|note| self.progress.warn(note));
             self.progress.saved(&path);
             saved.push(path);

@@ -44,15 +44,17 @@ struct Seconds {
 
 impl Report {
     /// A run over this scene begins; 0 threads are one per processor.
-    pub(super) fn new(scene: &Path, threads: usize) -> Self {
+    pub(super) fn new(scene: &Path, threads: usize, started: Instant) -> Self {
+        // Until here the scene was read.
+        let opened = Seconds { load: started.elapsed().as_secs_f64(), ..Seconds::default() };
         let all = std::thread::available_parallelism().map_or(1, usize::from);
         Self {
             scene: scene.to_owned(),
-            started: Instant::now(),
+            started,
             threads: if threads == 0 { all } else { threads },
             frames: Vec::new(),
             warnings: Vec::new(),
-            sum: Sum::default(),
+            sum: Sum { seconds: opened, ..Sum::default() },
             index: Vec::new(),
         }
     }

@@ -1,7 +1,6 @@
 //! Flags over the scene: what `render` was told beats what the file says.
 
 use crate::args::{ExrDepth, Integrator, Layer, RenderArgs};
-use crate::command::view::bits;
 use crate::diagnose::Failure;
 use heliostat_io::Shot;
 use heliostat_scene::frame::Depth;
@@ -37,7 +36,6 @@ pub(super) fn apply(args: &RenderArgs, shot: &mut Shot) -> Result<(), Failure> {
     }
     shot.view.transform = output.view.map_or(shot.view.transform, Into::into);
     shot.view.exposure = output.exposure.unwrap_or(shot.view.exposure);
-    shot.output.png_bits = output.png_bits.map_or(shot.output.png_bits, bits);
     shot.output.exr_depth = output.exr_depth.map_or(shot.output.exr_depth, |depth| match depth {
         ExrDepth::Half => Depth::Half,
         ExrDepth::Float => Depth::Float,

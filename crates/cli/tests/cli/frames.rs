@@ -1,8 +1,6 @@
 //! Frame ranges: names, leaving out what is there, and what a frame shows.
 
-mod common;
-
-use common::Folder;
+use crate::common::Folder;
 
 #[test]
 fn a_range_without_a_pattern_gets_four_digits() {

@@ -1,8 +1,6 @@
 //! Help, version, schema, completions and manual pages.
 
-mod common;
-
-use common::Folder;
+use crate::common::Folder;
 
 const COMMANDS: [&str; 10] =
     ["render", "check", "info", "index", "compare", "view", "video", "schema", "completions", "man"];

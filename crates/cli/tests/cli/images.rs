@@ -1,8 +1,6 @@
 //! `info`, `compare` and `view` over images that the binary itself wrote.
 
-mod common;
-
-use common::Folder;
+use crate::common::Folder;
 use serde_json::Value;
 
 fn rendered() -> Folder {

@@ -1,8 +1,6 @@
 //! `--stats` and `--progress`: what programs read.
 
-mod common;
-
-use common::Folder;
+use crate::common::Folder;
 use serde_json::Value;
 
 #[test]

@@ -1,9 +1,7 @@
 //! Wrong inputs: flags, scene files, OBJ, MTL and textures. Each gives exit code 2 or 3 and, last on one line, the file,
 //! the place and the mend; none panics.
 
-mod common;
-
-use common::{Folder, SCENE};
+use crate::common::{Folder, SCENE};
 
 /// Where the last line must say that the fault is.
 enum Place {

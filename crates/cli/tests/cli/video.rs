@@ -1,8 +1,6 @@
 //! `video`, with and without an ffmpeg.
 
-mod common;
-
-use common::{Folder, Run};
+use crate::common::{Folder, Run};
 
 #[test]
 fn without_ffmpeg_one_line_says_so() {

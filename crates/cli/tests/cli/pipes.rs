@@ -1,8 +1,6 @@
 //! Readers that have gone: no panic, and a picture all the same.
 
-mod common;
-
-use common::Folder;
+use crate::common::Folder;
 use std::process::Stdio;
 
 #[test]

@@ -1,13 +1,11 @@
 //! What the tests of the command line share: running the built binary in a folder of its own.
 
-#![allow(dead_code, reason = "each test file uses a part")]
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 
 /// A scene that renders in a moment and has everything in it that tests want to change.
-pub const SCENE: &str = r#"[render]
+pub(crate) const SCENE: &str = r#"[render]
 width = 40
 height = 30
 samples = 2
@@ -16,7 +14,8 @@ samples = 2
 first_frame = 1
 last_frame = 4
 
-[camera]
+[[camera]]
+name = "front"
 position = [0, 1, 4]
 look_at = [0, 0.5, 0]
 fov = 40
@@ -62,43 +61,43 @@ keys = [[0, [0, 0.5, 0]], [1, [1, 0.5, 0]]]
 "#;
 
 /// A folder with files, in which the binary runs.
-pub struct Folder(TempDir);
+pub(crate) struct Folder(TempDir);
 
 impl Folder {
     /// An empty folder.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self(TempDir::new().expect("a temporary folder"))
     }
 
     /// A folder with [`SCENE`] as `scene.toml`.
-    pub fn with_scene() -> Self {
+    pub(crate) fn with_scene() -> Self {
         let folder = Self::new();
         folder.write("scene.toml", SCENE);
         folder
     }
 
     /// Its path.
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         self.0.path()
     }
 
     /// The path of a file in it.
-    pub fn file(&self, name: &str) -> PathBuf {
+    pub(crate) fn file(&self, name: &str) -> PathBuf {
         self.path().join(name)
     }
 
     /// Writes a file.
-    pub fn write(&self, name: &str, content: impl AsRef<[u8]>) {
+    pub(crate) fn write(&self, name: &str, content: impl AsRef<[u8]>) {
         std::fs::write(self.file(name), content).expect("the temporary folder is writable");
     }
 
     /// Reads a file.
-    pub fn read(&self, name: &str) -> Vec<u8> {
+    pub(crate) fn read(&self, name: &str) -> Vec<u8> {
         std::fs::read(self.file(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
     }
 
     /// The names of all files, sorted.
-    pub fn names(&self) -> Vec<String> {
+    pub(crate) fn names(&self) -> Vec<String> {
         let entries = std::fs::read_dir(self.path()).expect("the folder is there");
         let mut names: Vec<String> =
             entries.map(|e| e.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
@@ -107,14 +106,14 @@ impl Folder {
     }
 
     /// The binary, ready to run in this folder.
-    pub fn command(&self, arguments: &[&str]) -> Command {
+    pub(crate) fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_heliostat"));
         command.args(arguments).current_dir(self.path()).stdin(Stdio::null()).env_remove("NO_COLOR");
         command
     }
 
     /// Runs the binary in this folder.
-    pub fn run(&self, arguments: &[&str]) -> Run {
+    pub(crate) fn run(&self, arguments: &[&str]) -> Run {
         let output = self.command(arguments).output().expect("the binary starts");
         Run::new(arguments, &output)
     }
@@ -122,15 +121,15 @@ impl Folder {
 
 /// What a run did.
 #[derive(Debug)]
-pub struct Run {
-    pub arguments: String,
-    pub code: Option<i32>,
-    pub stdout: String,
-    pub stderr: String,
+pub(crate) struct Run {
+    pub(crate) arguments: String,
+    pub(crate) code: Option<i32>,
+    pub(crate) stdout: String,
+    pub(crate) stderr: String,
 }
 
 impl Run {
-    pub fn new(arguments: &[&str], output: &Output) -> Self {
+    pub(crate) fn new(arguments: &[&str], output: &Output) -> Self {
         let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
         Self {
             arguments: arguments.join(" "),
@@ -141,13 +140,13 @@ impl Run {
     }
 
     /// The last line on standard error.
-    pub fn last_line(&self) -> &str {
+    pub(crate) fn last_line(&self) -> &str {
         self.stderr.lines().last().unwrap_or_default()
     }
 
     /// Fails the test unless the exit code is this one and nothing panicked.
     #[track_caller]
-    pub fn expect(self, code: i32) -> Self {
+    pub(crate) fn expect(self, code: i32) -> Self {
         assert_eq!(self.code, Some(code), "{self:#?}");
         assert!(!self.stderr.contains("panicked"), "{self:#?}");
         self

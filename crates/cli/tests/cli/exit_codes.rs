@@ -1,8 +1,6 @@
 //! The exit codes and the last line on standard error: the promise to scripts and farms.
 
-mod common;
-
-use common::Folder;
+use crate::common::Folder;
 
 #[test]
 fn success_is_0_and_tells_where_the_picture_is() {
@@ -38,8 +36,8 @@ fn a_wrong_command_line_is_2() {
 #[test]
 fn a_wrong_scene_is_3_with_line_mark_and_near_name() {
     let folder = Folder::new();
-    folder.write("scene.toml", common::SCENE.replacen("fov = 40", "fov_degree = 40", 1));
-    let line = 1 + common::SCENE.lines().position(|l| l == "fov = 40").expect("the line is there");
+    folder.write("scene.toml", crate::common::SCENE.replacen("fov = 40", "fov_degree = 40", 1));
+    let line = 1 + crate::common::SCENE.lines().position(|l| l == "fov = 40").expect("the line is there");
     for command in ["render", "check"] {
         let run = folder.run(&[command, "scene.toml"]).expect(3);
         let last = run.last_line();
@@ -67,7 +65,7 @@ fn an_output_that_cannot_be_written_is_4_before_the_render() {
 fn strict_makes_a_missing_texture_an_error() {
     let folder = Folder::new();
     let texture = "\n[[texture]]\nname = \"wood\"\nimage = \"wood.png\"\n";
-    let scene = common::SCENE.replace("diffuse = [0.8, 0.2, 0.1]", "diffuse = { texture = \"wood\" }");
+    let scene = crate::common::SCENE.replace("diffuse = [0.8, 0.2, 0.1]", "diffuse = { texture = \"wood\" }");
     folder.write("scene.toml", scene + texture);
     let run = folder.run(&["render", "scene.toml"]).expect(0);
     assert!(run.stderr.contains("warning: ") && run.stderr.contains("wood.png"), "{run:#?}");

@@ -1,8 +1,6 @@
 //! The promise: the same scene, settings and version give the same bytes, for any number of threads.
 
-mod common;
-
-use common::Folder;
+use crate::common::Folder;
 
 #[test]
 fn bytes_do_not_depend_on_threads() {

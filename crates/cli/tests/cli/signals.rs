@@ -1,9 +1,6 @@
 //! Signals: the first saves what there is, with the exit code that shells expect.
-#![cfg(unix)]
 
-mod common;
-
-use common::Folder;
+use crate::common::Folder;
 use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 
