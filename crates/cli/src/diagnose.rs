@@ -4,8 +4,8 @@
 use crate::exit::Exit;
 use crate::out;
 use heliostat_io::SaveError;
-use heliostat_render::RenderError;
 use heliostat_io::error::{LoadError, Place, Report, Warning};
+use heliostat_render::RenderError;
 use miette::{
     Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, MietteSpanContents,
     SourceCode, SourceSpan, SpanContents,
@@ -19,15 +19,15 @@ pub(crate) struct Failure {
     exit: Exit,
     /// `what; mend`, without the word error.
     line: String,
-    /// The file and the place, where there is one.
-    report: Option<Report>,
+    /// The file and the place, where it is about a file.
+    source: Option<LoadError>,
 }
 
 impl Failure {
     /// `line` says what and how to mend it.
     pub(crate) fn new(exit: Exit, line: impl Into<String>) -> Self {
         let line: String = line.into();
-        Self { exit, line: line.split_whitespace().collect::<Vec<_>>().join(" "), report: None }
+        Self { exit, line: line.split_whitespace().collect::<Vec<_>>().join(" "), source: None }
     }
 
     /// A slip on the command line that clap cannot see.
@@ -37,7 +37,8 @@ impl Failure {
 
     /// Prints it and tells how the process ends.
     pub(crate) fn print(&self) -> Exit {
-        if let Some(excerpt) = self.report.as_ref().and_then(|r| excerpt(r, miette::Severity::Error)) {
+        if let Some(excerpt) = self.source.as_ref().and_then(|e| excerpt(e.report(), miette::Severity::Error))
+        {
             out::note(format_args!("{}", excerpt.trim_end()));
         }
         out::note(format_args!("error: {}", self.line));
@@ -47,7 +48,7 @@ impl Failure {
 
 impl From<LoadError> for Failure {
     fn from(error: LoadError) -> Self {
-        Self { exit: Exit::Input, line: error.to_string(), report: Some(error.report().clone()) }
+        Self { exit: Exit::Input, line: error.to_string(), source: Some(error) }
     }
 }
 

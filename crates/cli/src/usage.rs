@@ -62,7 +62,7 @@ fn suggestion(error: &clap::Error) -> Option<String> {
 
 /// Our own parsers, and clap's lists of values, say themselves what to write.
 fn has_mend(what: &str) -> bool {
-    what.contains("write ") || what.contains("possible values") || what.contains(" is not in ")
+    what.contains("write ") || what.contains("possible values")
 }
 
 /// The command of the usage line, such as `heliostat render`.

@@ -48,7 +48,8 @@ fn findings(args: &CheckArgs) -> (Vec<heliostat_io::Warning>, Option<LoadError>)
     let last = source.frames().map_or(first, |frames| *frames.end());
     for frame in [first, last] {
         match source.shot(frame) {
-            Ok(shot) => warnings.extend(shot.warnings.into_iter().filter(|w| !warnings.contains(w)).collect::<Vec<_>>()),
+            Ok(shot) => warnings
+                .extend(shot.warnings.into_iter().filter(|w| !warnings.contains(w)).collect::<Vec<_>>()),
             Err(error) => return (warnings, Some(error)),
         }
     }

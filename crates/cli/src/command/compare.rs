@@ -40,7 +40,9 @@ pub(crate) fn run(args: &CompareArgs) -> Result<Exit, Failure> {
 /// What clap cannot see.
 fn check_arguments(args: &CompareArgs) -> Result<(), Failure> {
     if args.channel.is_some() && args.metric == Metric::Flip {
-        return Err(Failure::usage("--metric flip looks at colours; write --metric rmse or max beside --channel"));
+        return Err(Failure::usage(
+            "--metric flip looks at colours; write --metric rmse or max beside --channel",
+        ));
     }
     match &args.diff {
         Some(_) if args.channel.is_some() => {
@@ -53,7 +55,8 @@ fn check_arguments(args: &CompareArgs) -> Result<(), Failure> {
 
 fn check_sizes(args: &CompareArgs, [reference, image]: &[Frame; 2]) -> Result<(), Failure> {
     let size = |frame: &Frame| format!("{} x {} pixels", frame.width, frame.height);
-    if (reference.width, reference.height) == (image.width, image.height) && reference.window == image.window {
+    if (reference.width, reference.height) == (image.width, image.height) && reference.window == image.window
+    {
         return Ok(());
     }
     let whole = if size(reference) == size(image) { "another region of the same picture" } else { "" };
@@ -114,7 +117,11 @@ fn measured(args: &CompareArgs, seen: Option<&Comparison>, channels: &[ChannelNu
     }
 }
 
-fn judge(args: &CompareArgs, seen: Option<&Comparison>, channels: &[ChannelNumbers]) -> Result<Exit, Failure> {
+fn judge(
+    args: &CompareArgs,
+    seen: Option<&Comparison>,
+    channels: &[ChannelNumbers],
+) -> Result<Exit, Failure> {
     let value = measured(args, seen, channels);
     match args.max {
         Some(max) if value.is_nan() || value > max => {
@@ -180,7 +187,10 @@ fn text(args: &CompareArgs, seen: Option<&Comparison>, channels: &[ChannelNumber
         let differing = table::count(numbers.differing as usize);
         line("differing", format!("{differing} of {} pixels", table::count(pixels)));
         if numbers.broken > 0 {
-            line("broken", format!("{} pixels are not finite in one image", table::count(numbers.broken as usize)));
+            line(
+                "broken",
+                format!("{} pixels are not finite in one image", table::count(numbers.broken as usize)),
+            );
         }
     }
     let mut table = Table::new(["channel", "RMSE", "largest", "differing"]);

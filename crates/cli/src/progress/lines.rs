@@ -42,7 +42,7 @@ impl Lines {
             Style::Plain if frames > 1 => out::note(format_args!("FRAME: {frame} ({number} of {frames})")),
             Style::Plain | Style::Alf => {}
             Style::Json => {
-                event(&json!({ "event": "frame", "frame": frame, "number": number, "frames": frames }))
+                event(&json!({ "event": "frame", "frame": frame, "number": number, "frames": frames }));
             }
         }
     }

@@ -115,28 +115,22 @@ impl Folder {
     /// Runs the binary in this folder.
     pub(crate) fn run(&self, arguments: &[&str]) -> Run {
         let output = self.command(arguments).output().expect("the binary starts");
-        Run::new(arguments, &output)
+        Run::new(&output)
     }
 }
 
 /// What a run did.
 #[derive(Debug)]
 pub(crate) struct Run {
-    pub(crate) arguments: String,
     pub(crate) code: Option<i32>,
     pub(crate) stdout: String,
     pub(crate) stderr: String,
 }
 
 impl Run {
-    pub(crate) fn new(arguments: &[&str], output: &Output) -> Self {
+    pub(crate) fn new(output: &Output) -> Self {
         let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-        Self {
-            arguments: arguments.join(" "),
-            code: output.status.code(),
-            stdout: text(&output.stdout),
-            stderr: text(&output.stderr),
-        }
+        Self { code: output.status.code(), stdout: text(&output.stdout), stderr: text(&output.stderr) }
     }
 
     /// The last line on standard error.

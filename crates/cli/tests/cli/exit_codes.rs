@@ -84,5 +84,8 @@ fn colours_and_unicode_stay_in_terminals() {
     let folder = Folder::new();
     folder.write("scene.toml", "[camera]\nfovv = 1\n");
     let run = folder.run(&["check", "scene.toml"]).expect(3);
-    assert!(run.stderr.is_ascii() && !run.stderr.contains('\u{1b}') && !run.stderr.contains('\r'), "{run:#?}");
+    assert!(
+        run.stderr.is_ascii() && !run.stderr.contains('\u{1b}') && !run.stderr.contains('\r'),
+        "{run:#?}"
+    );
 }

@@ -70,7 +70,9 @@ fn compare_refuses_other_sizes() {
 #[test]
 fn view_is_what_render_writes() {
     let folder = rendered();
-    folder.run(&["render", "scene.toml", "-o", "f.exr", "-o", "agx.png", "--view", "agx", "--exposure", "-1"]).expect(0);
+    folder
+        .run(&["render", "scene.toml", "-o", "f.exr", "-o", "agx.png", "--view", "agx", "--exposure", "-1"])
+        .expect(0);
     folder.run(&["view", "f.exr", "-o", "b.png", "--view", "agx", "--exposure", "-1"]).expect(0);
     // Half floats stand between: a step of 8 bits at most.
     folder.run(&["compare", "agx.png", "b.png", "--max", "0.01", "--metric", "max"]).expect(0);
@@ -84,7 +86,10 @@ fn index_counts_exports_and_verifies() {
     let folder = Folder::new();
     // A strip of 2 x 50 triangles.
     let vertices = (0..=50).map(|i| format!("v {i} 0 0\nv {i} 1 {}\n", i % 3)).collect::<String>();
-    let faces = (0..50).map(|i| 2 * i + 1).map(|a| format!("f {a} {} {} {}\n", a + 2, a + 3, a + 1)).collect::<String>();
+    let faces = (0..50)
+        .map(|i| 2 * i + 1)
+        .map(|a| format!("f {a} {} {} {}\n", a + 2, a + 3, a + 1))
+        .collect::<String>();
     folder.write("strip.obj", vertices + &faces);
     let run = folder.run(&["index", "strip.obj", "--json", "--verify", "2000"]).expect(0);
     let report = json(&run.stdout);

@@ -41,8 +41,12 @@ fn a_render_without_readers_saves_its_picture() {
 fn an_error_without_a_reader_keeps_its_exit_code() {
     let folder = Folder::new();
     for (arguments, code) in [(&["render", "none.toml"][..], 3), (&["rendr"], 2), (&[], 2)] {
-        let mut child =
-            folder.command(arguments).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().expect("it starts");
+        let mut child = folder
+            .command(arguments)
+            .stderr(Stdio::piped())
+            .stdout(Stdio::null())
+            .spawn()
+            .expect("it starts");
         drop(child.stderr.take());
         assert_eq!(child.wait().expect("it ends").code(), Some(code), "{arguments:?}");
     }

@@ -8,8 +8,7 @@ use std::process::{Child, Command, Stdio};
 fn start(folder: &Folder, outputs: &[&str]) -> (Child, BufReader<std::process::ChildStderr>) {
     let endless = ["render", "scene.toml", "--samples", "1048576", "--progress", "json"];
     let mut command = folder.command(&[&endless[..], outputs].concat());
-    let mut child =
-        command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the binary starts");
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the binary starts");
     let mut lines = BufReader::new(child.stderr.take().expect("piped"));
     let mut line = String::new();
     while !line.contains("\"progress\"") {

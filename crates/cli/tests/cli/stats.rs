@@ -6,7 +6,9 @@ use serde_json::Value;
 #[test]
 fn stats_has_its_keys_and_its_sums_are_right() {
     let folder = Folder::with_scene();
-    folder.run(&["render", "scene.toml", "--frames", "1-2", "--stats", "stats.json", "--threads", "2"]).expect(0);
+    folder
+        .run(&["render", "scene.toml", "--frames", "1-2", "--stats", "stats.json", "--threads", "2"])
+        .expect(0);
     let stats: Value = serde_json::from_slice(&folder.read("stats.json")).expect("JSON");
     assert_eq!(stats["version"], env!("CARGO_PKG_VERSION"));
     assert_eq!(stats["scene"], "scene.toml");

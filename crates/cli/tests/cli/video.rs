@@ -8,7 +8,7 @@ fn without_ffmpeg_one_line_says_so() {
     folder.run(&["render", "scene.toml", "--frames", "1-2", "-o", "a.png"]).expect(0);
     let arguments = ["video", "a.####.png", "-o", "a.mp4"];
     let output = folder.command(&arguments).env("PATH", folder.path()).output().expect("the binary starts");
-    let run = Run::new(&arguments, &output).expect(1);
+    let run = Run::new(&output).expect(1);
     assert_eq!(run.stderr.lines().count(), 1, "{run:#?}");
     assert!(run.stderr.starts_with("error: ffmpeg was not found on the PATH; "), "{run:#?}");
     assert_eq!(folder.names(), ["a.0001.png", "a.0002.png", "scene.toml"], "nothing stays behind");

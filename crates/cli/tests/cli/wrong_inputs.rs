@@ -47,8 +47,16 @@ fn overrides() -> Vec<(&'static str, &'static [&'static str], &'static str)> {
     vec![
         ("no such camera", &["render", "scene.toml", "--camera", "topp"], "top"),
         ("--set of an unknown key", &["render", "scene.toml", "--set", "render.sampels=4"], "samples"),
-        ("--set of an unknown object", &["render", "scene.toml", "--set", "object.bal.visible=false"], "ball"),
-        ("--set of a wrong type", &["render", "scene.toml", "--set", "render.samples=\"many\""], "samples"),
+        (
+            "--set of an unknown object",
+            &["render", "scene.toml", "--set", "object.bal.visible=false"],
+            "ball",
+        ),
+        (
+            "--set of a wrong type",
+            &["render", "scene.toml", "--set", "render.samples=\"many\""],
+            "whole number",
+        ),
     ]
 }
 
@@ -70,7 +78,12 @@ fn scenes() -> Vec<(&'static str, &'static str, &'static str, &'static str)> {
         ("an impossible angle", "fov = 40", "fov = 180", ""),
         ("no scale at all", "translate = [0, 0.5, 0]", "scale = 0", ""),
         ("an unknown integrator", "samples = 2", "integrator = \"wited\"", "whitted"),
-        ("an unknown animation target", "target = \"object.ball.translate\"", "target = \"object.bal.translate\"", "ball"),
+        (
+            "an unknown animation target",
+            "target = \"object.ball.translate\"",
+            "target = \"object.bal.translate\"",
+            "ball",
+        ),
         ("keys that run backwards", "keys = [[0, [0, 0.5, 0]], [1,", "keys = [[1, [0, 0.5, 0]], [0,", ""),
     ]
 }
@@ -78,7 +91,12 @@ fn scenes() -> Vec<(&'static str, &'static str, &'static str, &'static str)> {
 /// Files beside a small scene that shows `model.obj` and the texture `a.png`.
 fn assets() -> Vec<(&'static str, &'static str, &'static [u8], Place)> {
     vec![
-        ("a vertex that is not there", "model.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", Line("model.obj:4:")),
+        (
+            "a vertex that is not there",
+            "model.obj",
+            b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n",
+            Line("model.obj:4:"),
+        ),
         ("a vertex 0", "model.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", Line("model.obj:4:")),
         ("a coordinate that is no number", "model.obj", b"v 0 0 zero\n", Line("model.obj:1:")),
         ("a coordinate that is infinite", "model.obj", b"v 0 0 1e999\n", Line("model.obj:1:")),
@@ -88,7 +106,12 @@ fn assets() -> Vec<(&'static str, &'static str, &'static [u8], Place)> {
         ("an image as a model", "model.obj", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", File("model.obj")),
         ("a word in a material", "model.mtl", b"newmtl m\nKd red 0 0\n", Line("model.mtl:2:")),
         ("a statement before the first material", "model.mtl", b"Kd 1 0 0\n", Line("model.mtl:1:")),
-        ("a texture of a material that is not there", "model.mtl", b"newmtl m\nmap_Kd none.png\n", Line("model.mtl:2:")),
+        (
+            "a texture of a material that is not there",
+            "model.mtl",
+            b"newmtl m\nmap_Kd none.png\n",
+            Line("model.mtl:2:"),
+        ),
         ("a text as a texture", "a.png", b"hello", File("a.png")),
         ("an empty texture", "a.png", b"", File("a.png")),
         ("half a PNG", "a.png", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x01", File("a.png")),
@@ -123,35 +146,37 @@ const MODEL: &[u8] = b"mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 
 
 #[test]
 fn wrong_flags() {
-    for (what, arguments, needle) in flags() {
-        let folder = Folder::with_scene();
-        judge(&folder, what, arguments, 2, &Flag, needle);
-    }
+    let folder = Folder::with_scene();
+    let judged = flags()
+        .into_iter()
+        .map(|(what, arguments, needle)| judge(&folder, what, arguments, 2, &Flag, needle));
+    all_right(judged);
 }
 
 #[test]
 fn flags_that_do_not_fit_the_scene() {
-    for (what, arguments, needle) in overrides() {
-        let folder = Folder::with_scene();
-        judge(&folder, what, arguments, 3, &Flag, needle);
-    }
+    let folder = Folder::with_scene();
+    let judged = overrides()
+        .into_iter()
+        .map(|(what, arguments, needle)| judge(&folder, what, arguments, 3, &Flag, needle));
+    all_right(judged);
 }
 
 #[test]
 fn wrong_scene_files() {
-    for (what, line, wrong, needle) in scenes() {
+    let folder = Folder::new();
+    let judged = scenes().into_iter().flat_map(|(what, line, wrong, needle)| {
         assert!(SCENE.contains(line), "{what}: the scene has no `{line}`");
-        let folder = Folder::new();
         folder.write("scene.toml", SCENE.replacen(line, wrong, 1));
-        for command in ["render", "check"] {
-            judge(&folder, what, &[command, "scene.toml"], 3, &Line("scene.toml:"), needle);
-        }
-    }
+        ["render", "check"]
+            .map(|command| judge(&folder, what, &[command, "scene.toml"], 3, &Line("scene.toml:"), needle))
+    });
+    all_right(judged);
 }
 
 #[test]
 fn wrong_models_materials_and_textures() {
-    for (what, file, content, place) in assets() {
+    let judged = assets().into_iter().flat_map(|(what, file, content, place)| {
         let folder = Folder::new();
         folder.write("scene.toml", ASSET_SCENE);
         folder.write("model.obj", MODEL);
@@ -159,10 +184,10 @@ fn wrong_models_materials_and_textures() {
         folder.write("a.png", one_pixel());
         folder.run(&["check", "scene.toml", "--strict"]).expect(0);
         folder.write(file, content);
-        for command in ["render", "check"] {
-            judge(&folder, what, &[command, "scene.toml", "--strict"], 3, &place, "");
-        }
-    }
+        ["render", "check"]
+            .map(|command| judge(&folder, what, &[command, "scene.toml", "--strict"], 3, &place, ""))
+    });
+    all_right(judged);
 }
 
 #[test]
@@ -173,49 +198,68 @@ fn wrong_files_as_scenes_and_images() {
     folder.write("text.exr", "hello");
     folder.write("scene.blend", "BLENDER");
     std::fs::create_dir(folder.file("folder.toml")).expect("a folder");
-    let cases: [(&str, &[&str], &str); 9] = [
-        ("a scene that is not there", &["render", "none.toml"], "none.toml"),
-        ("a scene that is a folder", &["render", "folder.toml"], "folder.toml"),
-        ("a scene in Latin-1", &["render", "latin.toml"], "latin.toml"),
-        ("an empty scene", &["render", "empty.toml"], "empty.toml"),
-        ("a scene of another program", &["render", "scene.blend"], "scene.blend"),
-        ("an image that is a text", &["info", "text.exr"], "text.exr"),
-        ("an image that is not there", &["view", "none.exr"], "none.exr"),
-        ("a comparison with nothing", &["compare", "text.exr", "none.exr"], "text.exr"),
-        ("a model that is not there", &["index", "none.obj"], "none.obj"),
+    let cases: [(&str, &[&str], Place); 9] = [
+        ("a scene that is not there", &["render", "none.toml"], File("none.toml")),
+        ("a scene that is a folder", &["render", "folder.toml"], File("folder.toml")),
+        ("a scene in Latin-1", &["render", "latin.toml"], File("latin.toml")),
+        ("an empty scene", &["render", "empty.toml"], File("empty.toml")),
+        ("a scene of another program", &["render", "scene.blend"], File("scene.blend")),
+        ("an image that is a text", &["info", "text.exr"], File("text.exr")),
+        ("an image that is not there", &["view", "none.exr"], File("none.exr")),
+        ("a comparison with nothing", &["compare", "text.exr", "none.exr"], File("text.exr")),
+        ("a model that is not there", &["index", "none.obj"], File("none.obj")),
     ];
-    for (what, arguments, file) in cases {
-        let run = judge(&folder, what, arguments, 3, &Flag, "");
-        assert!(run.contains(file), "{what}: {run}");
-    }
+    all_right(
+        cases.into_iter().map(|(what, arguments, place)| judge(&folder, what, arguments, 3, &place, "")),
+    );
 }
 
 #[test]
 fn there_are_enough_of_them() {
-    assert!(flags().len() + overrides().len() + scenes().len() + assets().len() + 9 >= 40);
+    assert!(flags().len() + overrides().len() + scenes().len() + assets().len() >= 40);
+}
+
+/// Fails with all that is not right, not only the first of it.
+#[track_caller]
+fn all_right(judged: impl Iterator<Item = Result<(), String>>) {
+    let wrong: Vec<String> = judged.filter_map(Result::err).collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// Runs, and demands the exit code, nothing written, and a last line with the place and a mend.
-fn judge(folder: &Folder, what: &str, arguments: &[&str], code: i32, place: &Place, needle: &str) -> String {
+fn judge(
+    folder: &Folder,
+    what: &str,
+    arguments: &[&str],
+    code: i32,
+    place: &Place,
+    needle: &str,
+) -> Result<(), String> {
     let before = folder.names();
     let run = folder.run(arguments);
-    assert_eq!(run.code, Some(code), "{what}: {run:#?}");
-    assert!(!run.stderr.contains("panicked"), "{what}: {run:#?}");
-    let last = run.last_line().to_owned();
-    let message = last.strip_prefix("error: ").unwrap_or_else(|| panic!("{what}: {run:#?}"));
-    assert!(message.contains(needle), "{what}: no `{needle}` in {run:#?}");
-    match place {
-        Flag => {}
-        File(name) => assert!(message.contains(name), "{what}: {run:#?}"),
-        Line(start) => {
-            let after = message.split_once(start).unwrap_or_else(|| panic!("{what}: no {start} in {run:#?}")).1;
-            assert!(after.starts_with(|c: char| c.is_ascii_digit()), "{what}: no place in {run:#?}");
+    let demand = |holds: bool, demand: &str| {
+        if holds {
+            Ok(())
+        } else {
+            Err(format!("{what}: {demand}\n  {arguments:?} gave {:?}\n{}", run.code, run.stderr))
         }
-    }
-    let mends = ["; ", "write ", "did you mean", "possible values"];
-    assert!(mends.iter().any(|mend| message.contains(mend)), "{what}: no mend in {run:#?}");
-    assert_eq!(folder.names(), before, "{what}: something was written");
-    last
+    };
+    demand(run.code == Some(code), &format!("exit code {code}"))?;
+    demand(!run.stderr.contains("panicked"), "no panic")?;
+    let message = run.last_line().strip_prefix("error: ").unwrap_or_default();
+    demand(!message.is_empty(), "the error last, on one line")?;
+    demand(message.contains(needle), &format!("`{needle}` in the last line"))?;
+    let placed = match place {
+        Flag => true,
+        File(name) => message.contains(name),
+        Line(start) => message
+            .split_once(start)
+            .is_some_and(|(_, after)| after.starts_with(|c: char| c.is_ascii_digit())),
+    };
+    demand(placed, "the place")?;
+    let mends = ["; ", "write ", "did you mean", "possible values", "expected "];
+    demand(mends.iter().any(|mend| message.contains(mend)), "a mend")?;
+    demand(folder.names() == before, "nothing written")
 }
 
 /// A white PNG.

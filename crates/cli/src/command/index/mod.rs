@@ -119,7 +119,17 @@ pub(crate) fn stats_json(stats: &TreeStats) -> Value {
 
 fn statistics_text(built: &[(Preset, Vec<SceneTree>)]) -> String {
     let mut table = Table::new([
-        "tree", "preset", "primitives", "nodes", "leaves", "empty", "depth", "refs/prim", "SAH cost", "memory", "build",
+        "tree",
+        "preset",
+        "primitives",
+        "nodes",
+        "leaves",
+        "empty",
+        "depth",
+        "refs/prim",
+        "SAH cost",
+        "memory",
+        "build",
     ]);
     let rows = built.iter().flat_map(|(preset, trees)| trees.iter().map(move |t| (*preset, t)));
     for (preset, tree) in rows {

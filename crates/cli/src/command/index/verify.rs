@@ -63,7 +63,9 @@ fn describe(mesh: &str, agreement: &Agreement, text: &mut String) {
     // Writing into a `String` cannot fail.
     let _ = match wrong {
         0 => writeln!(text, "verify: {mesh}: {rays} rays, {hits} hits, all agree with brute force"),
-        _ => writeln!(text, "verify: {mesh}: {rays} rays, {hits} hits, {wrong} DISAGREEMENTS with brute force"),
+        _ => {
+            writeln!(text, "verify: {mesh}: {rays} rays, {hits} hits, {wrong} DISAGREEMENTS with brute force")
+        }
     };
     for found in agreement.disagreements.iter().take(SHOWN) {
         let _ = writeln!(

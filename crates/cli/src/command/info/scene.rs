@@ -114,12 +114,21 @@ fn text(shot: &Shot, json: &Value) -> String {
         let _ = writeln!(text, "{name:<10} {value}");
     };
     line("scene", json["path"].as_str().unwrap_or_default().to_owned());
-    line("picture", format!("{} x {} pixels, {} samples", shot.settings.width, shot.settings.height, shot.settings.samples));
+    line(
+        "picture",
+        format!(
+            "{} x {} pixels, {} samples",
+            shot.settings.width, shot.settings.height, shot.settings.samples
+        ),
+    );
     if let Some([first, last]) = json["frames"].as_array().map(|f| [&f[0], &f[1]]) {
         line("frames", format!("{first} to {last}, {} per second", json["frame_rate"]));
     }
     let as_count = |key: &str| table::count(json[key].as_u64().unwrap_or_default() as usize);
-    line("triangles", format!("{}, {} with repetitions", as_count("triangles"), as_count("instanced_triangles")));
+    line(
+        "triangles",
+        format!("{}, {} with repetitions", as_count("triangles"), as_count("instanced_triangles")),
+    );
     line("cameras", names(scene.cameras.iter().map(|c| c.name.as_str())));
     line("materials", names(scene.materials.iter().map(|m| m.name.as_str())));
     line("textures", names(scene.textures.iter().map(|t| t.name.as_str())));

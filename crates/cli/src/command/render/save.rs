@@ -65,7 +65,8 @@ fn notes(path: &Path, report: SaveReport) -> Vec<String> {
     let path = path.display();
     if report.clamped > 0 {
         let values = report.clamped;
-        notes.push(format!("{path}: {values} values beyond 65504 became 65504; --exr-depth float keeps them"));
+        notes
+            .push(format!("{path}: {values} values beyond 65504 became 65504; --exr-depth float keeps them"));
     }
     if report.replaced > 0 {
         let values = report.replaced;

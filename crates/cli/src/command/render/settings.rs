@@ -10,7 +10,10 @@ use heliostat_scene::settings::{IntegratorKind, Layers};
 /// a model depends.
 pub(super) fn overrides(args: &RenderArgs) -> Vec<(String, String)> {
     let size = args.picture.size.iter().flat_map(|size| {
-        [("render.width".to_owned(), size.width.to_string()), ("render.height".to_owned(), size.height.to_string())]
+        [
+            ("render.width".to_owned(), size.width.to_string()),
+            ("render.height".to_owned(), size.height.to_string()),
+        ]
     });
     args.picture.set.iter().cloned().chain(size).collect()
 }
