@@ -7,7 +7,11 @@ use crate::error::{LoadError, quote};
 pub(super) fn finite(source: &SourceText<'_>, word: &str) -> Result<f32, LoadError> {
     let value: f32 = word.parse().map_err(|_| {
         let error = source.error(word, format!("{} is not a number", quote(word)));
-        if word.contains(',') { error.with_help("write the decimal point as `.`") } else { error }
+        error.with_help(if word.contains(',') {
+            "write the decimal point as `.`"
+        } else {
+            "write a number, as 0.5 or -1e-3"
+        })
     })?;
     if value.is_finite() {
         return Ok(value);
@@ -63,7 +67,10 @@ mod tests {
 
     #[test]
     fn what_is_no_finite_number_is_named_with_its_place() {
-        assert_eq!(read("v 1 x").unwrap_err(), "a.obj:1:5: `x` is not a number");
+        assert_eq!(
+            read("v 1 x").unwrap_err(),
+            "a.obj:1:5: `x` is not a number; write a number, as 0.5 or -1e-3"
+        );
         assert!(read("v 1 1,5").unwrap_err().ends_with("write the decimal point as `.`"));
         for word in ["nan", "inf", "-Infinity", "1e39"] {
             assert!(read(&format!("v 1 {word}")).unwrap_err().contains("is not a finite number"), "{word}");
