@@ -1,7 +1,10 @@
 //! The project's chores, each behind one word: `cargo xtask ci | tidy | assets | gallery | bench`.
 
 mod assets;
+mod bench;
 mod ci;
+mod gallery;
+mod heliostat;
 mod process;
 mod tidy;
 
@@ -30,6 +33,35 @@ enum Chore {
     Tidy,
     /// Generate the meshes and textures that the scenes use.
     Assets,
+    /// Render every scene and write scenes/README.md.
+    Gallery {
+        /// Render only scenes whose name contains this; the page lists all.
+        #[arg(default_value = "")]
+        only: String,
+        /// Render whole animations, and make videos where ffmpeg is found.
+        #[arg(long)]
+        videos: bool,
+    },
+    /// Measure.
+    #[command(subcommand)]
+    Bench(Bench),
+    /// Render golden pictures anew: all, or those named. Look at them before you commit them.
+    Golden {
+        /// Names of scenes.
+        names: Vec<String>,
+    },
+}
+
+#[derive(Subcommand)]
+enum Bench {
+    /// Every scene at 1280x720 with 16 samples.
+    Scenes,
+    /// Against POV-Ray on the same scene, where povray is found.
+    Peers {
+        /// Rounds, in which both take turns.
+        #[arg(long, default_value_t = 5)]
+        rounds: usize,
+    },
 }
 
 fn main() -> ExitCode {
@@ -37,6 +69,10 @@ fn main() -> ExitCode {
         Chore::Ci { deep } => ci::run(deep),
         Chore::Tidy => tidy::run(),
         Chore::Assets => assets::run(),
+        Chore::Gallery { only, videos } => gallery::run(&only, videos),
+        Chore::Bench(Bench::Scenes) => bench::scenes::run(),
+        Chore::Bench(Bench::Peers { rounds }) => bench::peers::run(rounds),
+        Chore::Golden { names } => golden(&names),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
@@ -45,4 +81,10 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+fn golden(names: &[String]) -> Outcome {
+    let mut args = vec!["run", "--release", "--package", "heliostat-tests", "--example", "bless", "--"];
+    args.extend(names.iter().map(String::as_str));
+    process::run(process::cargo(&args))
 }

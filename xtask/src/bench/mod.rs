@@ -1,0 +1,26 @@
+//! Measurements that anyone can repeat: on the release build, medians of interleaved rounds, as Markdown tables.
+
+pub(crate) mod peers;
+pub(crate) mod scenes;
+
+use crate::process::say;
+use std::process::Command;
+use std::time::Instant;
+
+/// Seconds of wall clock that a command takes; fails when the command does.
+fn seconds(mut command: Command) -> Result<f64, String> {
+    let start = Instant::now();
+    let output = command.output().map_err(|e| format!("{:?}: {e}", command.get_program()))?;
+    let elapsed = start.elapsed().as_secs_f64();
+    if output.status.success() {
+        return Ok(elapsed);
+    }
+    say(&String::from_utf8_lossy(&output.stderr));
+    Err(format!("{:?} ended with {}", command.get_program(), output.status))
+}
+
+/// The middle of the sorted values.
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
