@@ -8,7 +8,8 @@ fn main() -> Result<(), String> {
         if asked.is_empty() || asked.iter().any(|a| a == name) {
             let frame = golden::make(name)?;
             let options = heliostat_io::exr_file::ExrOptions::default();
-            heliostat_io::exr_file::write_exr(&golden::path(name), &frame, &options).map_err(|e| e.to_string())?;
+            heliostat_io::exr_file::write_exr(&golden::path(name), &frame, &options)
+                .map_err(|e| e.to_string())?;
         }
     }
     Ok(())

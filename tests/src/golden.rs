@@ -8,8 +8,8 @@
 //! Subr and Arvo, "Statistical Hypothesis Testing for Assessing Monte Carlo Estimators", 2007; Mitsuba 3's render tests.
 
 use crate::scenes;
-use heliostat_scene::frame::{Channel, Depth};
 use heliostat_scene::Frame;
+use heliostat_scene::frame::{Channel, Depth};
 use std::path::PathBuf;
 
 /// Size of a golden picture.
@@ -145,7 +145,8 @@ mod tests {
     #[test]
     fn tails_of_the_normal_distribution() {
         // Textbook quantiles.
-        for (z, p) in [(0.0, 1.0), (1.0, 0.317_31), (1.959_964, 0.05), (2.575_829, 0.01), (4.891_638, 1.0e-6)] {
+        for (z, p) in [(0.0, 1.0), (1.0, 0.317_31), (1.959_964, 0.05), (2.575_829, 0.01), (4.891_638, 1.0e-6)]
+        {
             assert!((two_sided_p(z) - p).abs() < 0.02 * p + 1e-6, "z = {z}");
         }
     }

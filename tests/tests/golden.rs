@@ -1,14 +1,15 @@
 //! Pictures against their golden mean and variance. On failure the rendering lies in `target/golden/`.
 
-use heliostat_io::exr_file::{ExrOptions, read_exr, write_exr};
 use heliostat_io::Limits;
+use heliostat_io::exr_file::{ExrOptions, read_exr, write_exr};
 use heliostat_tests::{golden, scenes};
 
 #[test]
 fn pictures_converge_to_their_golden_means() {
     let mut failures = Vec::new();
     for name in golden::NAMES {
-        let reference = read_exr(&golden::path(name), &Limits::default()).expect("golden pictures are committed");
+        let reference =
+            read_exr(&golden::path(name), &Limits::default()).expect("golden pictures are committed");
         let frame = golden::rendering(name, 7).expect("scenes of the repository render");
         let verdict = golden::compare(&reference, &frame).expect("same channels");
         if !verdict.is_pass() {

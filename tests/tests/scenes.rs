@@ -13,7 +13,8 @@ fn every_scene_renders() {
             assert!(error.contains("cargo xtask assets"), "{}: {error}", path.display());
             continue;
         }
-        let frame = scenes::render(&path, [32, 18], 1, 0).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        let frame =
+            scenes::render(&path, [32, 18], 1, 0).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
         let values = || frame.channels.iter().filter(|c| "RGB".contains(&c.name)).flat_map(|c| &c.values);
         assert!(values().all(|v| v.is_finite() && *v >= 0.0), "{}", path.display());
         assert!(values().any(|v| *v > 0.0), "{} is black", path.display());
