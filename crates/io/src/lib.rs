@@ -11,6 +11,7 @@ pub mod image_file;
 pub mod model;
 pub mod nearest;
 pub mod obj;
+mod parallel;
 pub mod picture;
 pub mod png_file;
 pub mod save_error;

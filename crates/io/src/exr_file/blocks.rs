@@ -1,6 +1,7 @@
 //! The pixels of a frame as compressed blocks of scan lines, made by several threads, the same for any number of them.
 
 use super::{Compression, ExrOptions, SaveReport, zip};
+use crate::parallel::map_in_order;
 use exr::block::chunk::{Chunk, CompressedBlock, CompressedScanLineBlock};
 use exr::block::{BlockIndex, UncompressedBlock, enumerate_ordered_header_block_indices};
 use exr::error::Result;
@@ -10,7 +11,6 @@ use exr::meta::attribute::{ChannelDescription, IntegerBounds, LineOrder, SampleT
 use exr::meta::header::{Header, LayerAttributes};
 use half::f16;
 use heliostat_scene::frame::{Channel, Depth, Frame};
-use std::num::NonZeroUsize;
 use std::ops::{AddAssign, Range};
 
 impl AddAssign for SaveReport {
@@ -39,24 +39,6 @@ pub(super) fn compress(frame: &Frame, options: &ExrOptions) -> Result<(Header, V
         report += changed;
     }
     Ok((header, chunks, report))
-}
-
-/// `task` for every item, by some threads (0 for all there are), in the order of the items.
-fn map_in_order<T: Sync, R: Send>(items: &[T], threads: usize, task: impl Fn(&T) -> R + Sync) -> Vec<R> {
-    let available = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-    let threads = if threads == 0 { available() } else { threads }.min(items.len());
-    if threads <= 1 {
-        return items.iter().map(task).collect();
-    }
-    let share = |items: &[T]| items.iter().map(&task).collect::<Vec<_>>();
-    std::thread::scope(|scope| {
-        let shares = items.chunks(items.len().div_ceil(threads));
-        let workers: Vec<_> = shares.map(|items| scope.spawn(|| share(items))).collect();
-        let join = |worker: std::thread::ScopedJoinHandle<'_, Vec<R>>| {
-            worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
-        };
-        workers.into_iter().flat_map(join).collect()
-    })
 }
 
 fn header(frame: &Frame, channels: &[&Channel], compression: Compression) -> Header {

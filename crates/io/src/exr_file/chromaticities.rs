@@ -105,3 +105,40 @@ fn convert(frame: &mut Frame, prefix: &str, matrix: DMat3) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rec709_has_the_matrix_of_srgb() {
+        // IEC 61966-2-1, row by row.
+        let published = DMat3::from_cols(
+            DVec3::new(0.4124, 0.2126, 0.0193),
+            DVec3::new(0.3576, 0.7152, 0.1192),
+            DVec3::new(0.1805, 0.0722, 0.9505),
+        );
+        assert!(to_xyz(&REC709).abs_diff_eq(published, 2e-4), "{}", to_xyz(&REC709));
+    }
+
+    #[test]
+    fn acescg_becomes_rec709_as_published() {
+        let ap1 = [(0.713, 0.293), (0.165, 0.83), (0.128, 0.044), (0.32168, 0.33767)].map(DVec2::from);
+        let matrix = conversion(&ap1).unwrap();
+        // The matrix that compositing programs list for ACEScg to linear sRGB (Bradford).
+        let published = DMat3::from_cols(
+            DVec3::new(1.705_05, -0.130_26, -0.024_00),
+            DVec3::new(-0.621_79, 1.140_80, -0.128_97),
+            DVec3::new(-0.083_26, -0.010_55, 1.152_97),
+        );
+        assert!(matrix.abs_diff_eq(published, 1e-3), "{matrix}");
+        assert!((matrix * DVec3::ONE - 1.0).abs().max_element() < 1e-9);
+    }
+
+    #[test]
+    fn primaries_on_a_line_are_refused() {
+        let line = [(0.1, 0.1), (0.2, 0.2), (0.3, 0.3), (0.3, 0.3)].map(DVec2::from);
+        assert!(conversion(&line).is_none());
+        assert!(conversion(&[(0.64, 0.33), (0.3, 0.6), (0.15, 0.06), (0.3, 0.0)].map(DVec2::from)).is_none());
+    }
+}

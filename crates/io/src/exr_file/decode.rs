@@ -8,14 +8,15 @@
 use super::header;
 use super::layout::{self, PartLayout, SampleKind, Window};
 use super::{attributes, chromaticities};
-use crate::image_file::{Limits, shield};
+use crate::image_file::{Limits, Refusal, shield};
+use crate::parallel::map_in_order;
 use exr::block::UncompressedBlock;
 use exr::block::chunk::{Chunk, CompressedBlock};
 use exr::block::reader::ChunksReader;
 use exr::math::Vec2;
 use exr::meta::attribute::ChannelList;
 use exr::meta::header::Header;
-use exr::meta::{BlockDescription, compute_block_count};
+use exr::meta::{BlockDescription, MetaData, compute_block_count};
 use half::f16;
 use heliostat_scene::frame::{Channel, Depth, Frame};
 use heliostat_scene::settings::PixelRect;
@@ -32,7 +33,7 @@ struct Planned {
 }
 
 /// Decodes the channels whose names are `wanted`, in the order of the file.
-pub(super) fn decode(bytes: &[u8], limits: &Limits, wanted: &dyn Fn(&str) -> bool) -> Result<Frame, String> {
+pub(super) fn decode(bytes: &[u8], limits: &Limits, wanted: &dyn Fn(&str) -> bool) -> Result<Frame, Refusal> {
     let header = header::parse(bytes)?;
     let parts = layout::check(&header, limits)?;
     let plan = plan(&parts, wanted)?;
@@ -50,12 +51,12 @@ pub(super) fn decode(bytes: &[u8], limits: &Limits, wanted: &dyn Fn(&str) -> boo
 }
 
 /// The names of all channels that [`decode`] could give, in the order of the file.
-pub(super) fn channel_names(bytes: &[u8], limits: &Limits) -> Result<Vec<String>, String> {
+pub(super) fn channel_names(bytes: &[u8], limits: &Limits) -> Result<Vec<String>, Refusal> {
     let parts = layout::check(&header::parse(bytes)?, limits)?;
     Ok(plan(&parts, &|_| true)?.into_iter().flatten().map(|c| c.name).collect())
 }
 
-fn plan(parts: &[PartLayout], wanted: &dyn Fn(&str) -> bool) -> Result<Vec<Vec<Planned>>, String> {
+fn plan(parts: &[PartLayout], wanted: &dyn Fn(&str) -> bool) -> Result<Vec<Vec<Planned>>, Refusal> {
     let mut names = BTreeSet::new();
     let mut slots = 0;
     let mut plan = Vec::new();
@@ -70,7 +71,7 @@ fn plan(parts: &[PartLayout], wanted: &dyn Fn(&str) -> bool) -> Result<Vec<Vec<P
                 name = format!("{}.{name}", part.name);
             }
             if !names.insert(name.clone()) {
-                return Err(format!("has two channels {name}"));
+                return Err(format!("has two channels {name}").into());
             }
             let slot = wanted(&name).then_some(slots);
             slots += usize::from(slot.is_some());
@@ -82,10 +83,10 @@ fn plan(parts: &[PartLayout], wanted: &dyn Fn(&str) -> bool) -> Result<Vec<Vec<P
 }
 
 /// The frame, all values 0.
-fn empty_frame(parts: &[PartLayout], plan: &[Vec<Planned>], limits: &Limits) -> Result<Frame, String> {
+fn empty_frame(parts: &[PartLayout], plan: &[Vec<Planned>], limits: &Limits) -> Result<Frame, Refusal> {
     let display = parts[0].display;
     if parts.iter().any(|p| p.display != display) {
-        return Err("has parts with different display windows, which is not read".to_owned());
+        return Err("has parts with different display windows".into());
     }
     let covered = parts[1..].iter().fold(parts[0].data, |window, p| window.union(&p.data));
     let window = relative(&covered.intersect(&display), &display);
@@ -125,34 +126,52 @@ fn read_pixels(
     bytes: &[u8],
     parts: &[PartLayout],
     mut place: impl FnMut(&UncompressedBlock, &ChannelList),
-) -> Result<(), String> {
-    let explain = |error: exr::error::Error| format!("is damaged or in a variant that is not read: {error}");
+) -> Result<(), Refusal> {
+    /// Blocks that are decompressed together: work for many threads, memory for few.
+    const BATCH: usize = 64;
     let reader = exr::block::read(Cursor::new(bytes), false).map_err(explain)?;
     // The limits were checked on our own reading of the header.
     let agrees =
         |(h, p): (&Header, &PartLayout)| p.data.size() == [h.layer_size.0 as u64, h.layer_size.1 as u64];
     if reader.headers().len() != parts.len() || !reader.headers().iter().zip(parts).all(agrees) {
-        return Err("has a contradictory header".to_owned());
+        return Err("has a contradictory header".into());
     }
     let full_resolution = Vec2(0, 0);
-    let chunks =
+    let mut chunks =
         reader.filter_chunks(false, |_, tile, _| tile.level_index == full_resolution).map_err(explain)?;
     let meta = chunks.meta_data().clone();
     let mut seen = BTreeSet::new();
-    for chunk in chunks {
-        let chunk = chunk.map_err(explain)?;
-        let header = meta.headers.get(chunk.layer_index).ok_or("has a block of a missing part")?;
-        if !is_inside(&chunk, header) {
-            return Err("has a block outside its picture".to_owned());
+    loop {
+        let batch = chunks.by_ref().take(BATCH).collect::<Result<Vec<_>, _>>().map_err(explain)?;
+        if batch.is_empty() {
+            return Ok(());
         }
-        let block = UncompressedBlock::decompress_chunk(chunk, &meta, false).map_err(explain)?;
-        let Vec2(x, y) = block.index.pixel_position;
-        if !seen.insert((block.index.layer, x, y)) {
-            return Err("has the same block twice".to_owned());
+        for block in map_in_order(&batch, 0, |chunk| decompress(chunk, &meta)) {
+            let block = block?;
+            let Vec2(x, y) = block.index.pixel_position;
+            if !seen.insert((block.index.layer, x, y)) {
+                return Err("has the same block twice".into());
+            }
+            place(&block, &meta.headers[block.index.layer].channels);
         }
-        place(&block, &header.channels);
     }
-    Ok(())
+}
+
+fn explain(error: exr::error::Error) -> Refusal {
+    match error {
+        exr::error::Error::NotSupported(what) => {
+            Refusal::Variant(format!("is in a variant that is not read: {what}"))
+        }
+        error => Refusal::Damaged(format!("is damaged: {error}")),
+    }
+}
+
+fn decompress(chunk: &Chunk, meta: &MetaData) -> Result<UncompressedBlock, Refusal> {
+    let header = meta.headers.get(chunk.layer_index).ok_or("has a block of a missing part")?;
+    if !is_inside(chunk, header) {
+        return Err("has a block outside its picture".into());
+    }
+    UncompressedBlock::decompress_chunk(chunk.clone(), meta, false).map_err(explain)
 }
 
 /// Whether a tile exists in the full resolution; the decoder would panic on wild numbers. (It checks scan lines itself.)

@@ -4,7 +4,7 @@
 //! damaged DWA data), and everything larger than the limits.
 
 use super::header::{Cursor, FileHeader, NON_IMAGE, Part};
-use crate::image_file::Limits;
+use crate::image_file::{Limits, Refusal};
 
 /// A rectangle of pixels, both corners inside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,13 +14,13 @@ pub(super) struct Window {
 }
 
 impl Window {
-    fn of(part: &Part<'_>, name: &str) -> Result<Self, String> {
+    fn of(part: &Part<'_>, name: &str) -> Result<Self, Refusal> {
         let value = part.value(name, "box2i").ok_or_else(|| format!("has no {name}"))?;
         let mut cursor = Cursor::new(value);
         let mut number = || cursor.array().map(i32::from_le_bytes);
         let window = Self { min: [number()?, number()?], max: [number()?, number()?] };
         let [width, height] = window.size();
-        if width == 0 || height == 0 { Err(format!("has an empty {name}")) } else { Ok(window) }
+        if width == 0 || height == 0 { Err(format!("has an empty {name}").into()) } else { Ok(window) }
     }
 
     /// Columns and rows; 0 where the corners are the wrong way round.
@@ -92,9 +92,9 @@ pub(super) struct PartLayout {
 ///
 /// # Errors
 /// Where a part cannot be read or is larger than the limits.
-pub(super) fn check(header: &FileHeader<'_>, limits: &Limits) -> Result<Vec<PartLayout>, String> {
+pub(super) fn check(header: &FileHeader<'_>, limits: &Limits) -> Result<Vec<PartLayout>, Refusal> {
     if header.version & NON_IMAGE != 0 {
-        return Err("holds deep data, which is not read".to_owned());
+        return Err(Refusal::Variant("holds deep data, which is not read".to_owned()));
     }
     let parts = header.parts.iter().map(|p| check_part(p, limits)).collect::<Result<Vec<_>, _>>()?;
     let stored = |p: &PartLayout| -> u64 {
@@ -103,16 +103,16 @@ pub(super) fn check(header: &FileHeader<'_>, limits: &Limits) -> Result<Vec<Part
     };
     // No overflow: each part is below the limit.
     if parts.iter().map(|p| u128::from(stored(p))).sum::<u128>() > u128::from(limits.bytes) {
-        return Err(format!("has more pixels than the limit of {} bytes", limits.bytes));
+        return Err(Refusal::Large(format!("has more pixels than the limit of {} bytes", limits.bytes)));
     }
     Ok(parts)
 }
 
-fn check_part(part: &Part<'_>, limits: &Limits) -> Result<PartLayout, String> {
+fn check_part(part: &Part<'_>, limits: &Limits) -> Result<PartLayout, Refusal> {
     let text = |name| part.value(name, "string").map(|v| String::from_utf8_lossy(v).into_owned());
     match text("type").as_deref() {
         None | Some("scanlineimage" | "tiledimage") => {}
-        Some(kind) => return Err(format!("holds {kind} data, which is not read")),
+        Some(kind) => return Err(Refusal::Variant(format!("holds {kind} data, which is not read"))),
     }
     check_compression(part)?;
     check_tiles(part, limits)?;
@@ -127,7 +127,7 @@ fn check_part(part: &Part<'_>, limits: &Limits) -> Result<PartLayout, String> {
     Ok(PartLayout { name, view, display, data, channels })
 }
 
-fn check_compression(part: &Part<'_>) -> Result<(), String> {
+fn check_compression(part: &Part<'_>) -> Result<(), Refusal> {
     let value = part.value("compression", "compression").ok_or("has no compression attribute")?;
     let name = match value {
         // none, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A
@@ -137,18 +137,18 @@ fn check_compression(part: &Part<'_>) -> Result<(), String> {
         [10 | 11] => "HTJ2K",
         _ => "unknown",
     };
-    Err(format!("has {name} compression, which is not read"))
+    Err(Refusal::Variant(format!("has {name} compression, which is not read")))
 }
 
-fn check_tiles(part: &Part<'_>, limits: &Limits) -> Result<(), String> {
+fn check_tiles(part: &Part<'_>, limits: &Limits) -> Result<(), Refusal> {
     let Some(value) = part.value("tiles", "tiledesc") else { return Ok(()) };
     let mut cursor = Cursor::new(value);
     let [width, height] = [u32::from_le_bytes(cursor.array()?), u32::from_le_bytes(cursor.array()?)];
-    limits.check(width.into(), height.into(), 1).map_err(|e| format!("has tiles: {e}"))
+    limits.check(width.into(), height.into(), 1)
 }
 
 /// The channel list of a part.
-fn channels(part: &Part<'_>) -> Result<Vec<ChannelInfo>, String> {
+fn channels(part: &Part<'_>) -> Result<Vec<ChannelInfo>, Refusal> {
     let value = part.value("channels", "chlist").ok_or("has no channel list")?;
     let mut cursor = Cursor::new(value);
     let mut channels: Vec<ChannelInfo> = Vec::new();
@@ -163,12 +163,14 @@ fn channels(part: &Part<'_>) -> Result<Vec<ChannelInfo>, String> {
         cursor.take(4)?;
         let sampling = [i32::from_le_bytes(cursor.array()?), i32::from_le_bytes(cursor.array()?)];
         if sampling != [1, 1] {
-            return Err(format!("has a subsampled channel {name} (luminance and chroma), which is not read"));
+            let message =
+                format!("has a subsampled channel {name} (luminance and chroma), which is not read");
+            return Err(Refusal::Variant(message));
         }
         channels.push(ChannelInfo { name, kind });
     }
     if channels.is_empty() || !cursor.is_at_end() {
-        return Err("has a damaged or empty channel list".to_owned());
+        return Err("has a damaged or empty channel list".into());
     }
     Ok(channels)
 }

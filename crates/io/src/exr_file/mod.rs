@@ -98,14 +98,10 @@ pub(crate) fn decode_channels(
     limits: &Limits,
     wanted: &dyn Fn(&str) -> bool,
 ) -> Result<Frame, LoadError> {
-    decode::decode(bytes, limits, wanted).map_err(|e| load_error(path, e))
+    decode::decode(bytes, limits, wanted).map_err(|e| e.about(path))
 }
 
 /// The names of all channels, in the order of the file.
 pub(crate) fn channel_names(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Vec<String>, LoadError> {
-    decode::channel_names(bytes, limits).map_err(|e| load_error(path, e))
-}
-
-fn load_error(path: &Path, message: String) -> LoadError {
-    LoadError::new(path, message).with_help("save it again as flat RGB with ZIP or PIZ compression")
+    decode::channel_names(bytes, limits).map_err(|e| e.about(path))
 }

@@ -1,12 +1,14 @@
 //! PNG, JPEG and Radiance HDR through the `image` crate.
+//!
+//! `EXPOSURE` and `COLORCORR` lines of HDR files are not applied: most programs that write them do not mean them.
 
-use super::{Format, Limits, shield};
+use super::{Format, Limits, Refusal, shield};
 use crate::error::LoadError;
 use heliostat_scene::image::{Encoding, Image, Samples};
 use image::codecs::hdr::HdrDecoder;
 use image::codecs::jpeg::JpegDecoder;
 use image::codecs::png::PngDecoder;
-use image::error::{ImageError, LimitErrorKind};
+use image::error::ImageError;
 use image::{DynamicImage, ImageDecoder, ImageResult};
 use std::io::Cursor;
 use std::path::Path;
@@ -25,11 +27,9 @@ pub(super) fn decode(path: &Path, bytes: &[u8], format: Format, limits: &Limits)
         // The official signature is `#?RADIANCE`; many programs write `#?RGBE`, which the strict mode refuses.
         Format::Hdr if bytes.starts_with(b"#?RADIANCE") => load(HdrDecoder::new(Cursor::new(bytes)), limits),
         Format::Hdr => load(HdrDecoder::new_nonstrict(Cursor::new(bytes)), limits),
-        Format::Exr => Err("is an OpenEXR file".to_owned()),
+        Format::Exr => Err(Refusal::Variant("is an OpenEXR file".to_owned())),
     })
-    .map_err(|message| {
-        LoadError::new(path, message).with_help("export the image again, smaller if it is large")
-    })
+    .map_err(|refusal| refusal.about(path))
 }
 
 fn decoder_limits(limits: &Limits) -> image::Limits {
@@ -41,7 +41,7 @@ fn decoder_limits(limits: &Limits) -> image::Limits {
 }
 
 /// Checks the size, then decodes.
-fn load(decoder: ImageResult<impl ImageDecoder>, limits: &Limits) -> Result<Image, String> {
+fn load(decoder: ImageResult<impl ImageDecoder>, limits: &Limits) -> Result<Image, Refusal> {
     let mut decoder = decoder.map_err(|e| explain(&e))?;
     let (width, height) = decoder.dimensions();
     limits.check(width.into(), height.into(), decoder.color_type().bytes_per_pixel().into())?;
@@ -49,16 +49,15 @@ fn load(decoder: ImageResult<impl ImageDecoder>, limits: &Limits) -> Result<Imag
     convert(DynamicImage::from_decoder(decoder).map_err(|e| explain(&e))?)
 }
 
-fn explain(error: &ImageError) -> String {
+fn explain(error: &ImageError) -> Refusal {
     match error {
-        ImageError::Limits(e) if matches!(e.kind(), LimitErrorKind::Unsupported { .. }) => e.to_string(),
-        ImageError::Limits(_) => "is larger than the limit".to_owned(),
-        ImageError::Unsupported(e) => format!("is in a variant that is not read: {e}"),
-        error => format!("is damaged: {error}"),
+        ImageError::Limits(e) => Refusal::Large(format!("is larger than the limit: {e}")),
+        ImageError::Unsupported(e) => Refusal::Variant(format!("is in a variant that is not read: {e}")),
+        error => Refusal::Damaged(format!("is damaged: {error}")),
     }
 }
 
-fn convert(image: DynamicImage) -> Result<Image, String> {
+fn convert(image: DynamicImage) -> Result<Image, Refusal> {
     let (width, height) = (image.width(), image.height());
     let (channels, samples) = match image {
         DynamicImage::ImageLuma8(i) => (1, Samples::U8(i.into_raw())),
@@ -71,7 +70,7 @@ fn convert(image: DynamicImage) -> Result<Image, String> {
         DynamicImage::ImageRgba16(i) => (4, Samples::U16(i.into_raw())),
         DynamicImage::ImageRgb32F(i) => (3, Samples::F32(i.into_raw())),
         DynamicImage::ImageRgba32F(i) => (4, Samples::F32(i.into_raw())),
-        _ => return Err("has an unknown pixel format".to_owned()),
+        _ => return Err(Refusal::Variant("has an unknown pixel format".to_owned())),
     };
     let encoding = if matches!(samples, Samples::F32(_)) { Encoding::Linear } else { Encoding::Srgb };
     Ok(Image { width, height, channels, encoding, samples })
@@ -81,10 +80,10 @@ fn convert(image: DynamicImage) -> Result<Image, String> {
 ///
 /// Inside compressed data the byte 0xff is never followed by a mark, so the last start-of-scan must have an
 /// end-of-image behind it (a preview in the metadata has its own pair before).
-fn check_jpeg_end(bytes: &[u8]) -> Result<(), String> {
+fn check_jpeg_end(bytes: &[u8]) -> Result<(), Refusal> {
     let last = |mark: u8| bytes.windows(2).rposition(|pair| pair == [0xff, mark]);
     match (last(0xda), last(0xd9)) {
         (Some(scan), Some(end)) if end > scan => Ok(()),
-        _ => Err("is damaged: it ends in the middle of the picture".to_owned()),
+        _ => Err("is damaged: it ends in the middle of the picture".into()),
     }
 }

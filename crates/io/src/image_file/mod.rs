@@ -5,9 +5,11 @@
 //! count as sRGB, floats as linear.
 
 mod bitmap;
+mod refusal;
 mod shield;
 mod texture;
 
+pub(crate) use refusal::Refusal;
 pub(crate) use shield::shield;
 
 use crate::error::LoadError;
@@ -37,22 +39,20 @@ impl Default for Limits {
 
 impl Limits {
     /// Checks a picture of `width` by `height` pixels that takes `pixel_bytes` each.
-    ///
-    /// # Errors
-    /// With a sentence that names both sizes.
-    pub fn check(&self, width: u64, height: u64, pixel_bytes: u64) -> Result<(), String> {
+    pub(crate) fn check(&self, width: u64, height: u64, pixel_bytes: u64) -> Result<(), Refusal> {
         if width == 0 || height == 0 {
-            return Err("has no pixels".to_owned());
+            return Err("has no pixels".into());
         }
         if width.max(height) > u64::from(self.side) {
-            return Err(format!("{width} x {height} pixels are more than {} on a side", self.side));
+            let message = format!("{width} x {height} pixels are more than {} on a side", self.side);
+            return Err(Refusal::Large(message));
         }
         match width.checked_mul(height).and_then(|n| n.checked_mul(pixel_bytes)) {
             Some(bytes) if bytes <= self.bytes => Ok(()),
-            _ => Err(format!(
+            _ => Err(Refusal::Large(format!(
                 "{width} x {height} pixels of {pixel_bytes} bytes are more than the limit of {} bytes",
                 self.bytes
-            )),
+            ))),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! OpenEXR files as textures and environments: one colour layer, straight alpha.
 
-use super::Limits;
+use super::{Limits, Refusal};
 use crate::error::LoadError;
 use crate::exr_file;
 use crate::picture::{Picture, main_layer};
@@ -10,12 +10,10 @@ use std::path::Path;
 /// Decodes the main layer of a file over its whole display window.
 pub(super) fn decode(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Image, LoadError> {
     let names = exr_file::channel_names(path, bytes, limits)?;
-    let layer = main_layer(&names).ok_or_else(|| LoadError::new(path, "has no channels of colour"))?;
+    let layer = main_layer(&names).ok_or_else(|| Refusal::from("has no channels").about(path))?;
     let frame = exr_file::decode_channels(path, bytes, limits, &|name| layer.contains(name))?;
     let pixel_bytes = 4 * layer.channel_count() as u64;
-    limits
-        .check(frame.width.into(), frame.height.into(), pixel_bytes)
-        .map_err(|e| LoadError::new(path, e).with_help("save a smaller image"))?;
+    limits.check(frame.width.into(), frame.height.into(), pixel_bytes).map_err(|e| e.about(path))?;
     let picture = Picture::of_layer(&frame, &layer);
     Ok(image(&picture, layer.is_grey(), layer.has_alpha()))
 }

@@ -13,10 +13,10 @@ mod color;
 mod exposure;
 mod filter;
 
+use crate::parallel::{map_in_order, threads};
 use color::{hunt_lab, opponent, unopponent};
 use filter::{Kernels, Plane, convolve};
 use glam::Vec3;
-use std::num::NonZeroUsize;
 use std::sync::LazyLock;
 
 /// Pixels per degree of the visual field: a screen 0.7 m and 3840 pixels wide, seen from 0.7 m.
@@ -63,7 +63,6 @@ pub fn ldr(
 /// When the slices do not have `width * height` pixels, or there are none.
 pub fn hdr(reference: &[Vec3], test: &[Vec3], size: [usize; 2], pixels_per_degree: f32) -> Vec<f32> {
     let exposures = exposure::exposures(reference);
-    let threads = std::thread::available_parallelism().map_or(1, NonZeroUsize::get).min(exposures.len());
     let largest_of = |mine: &[f32]| {
         let mut largest = vec![0.0_f32; reference.len()];
         for &exposure in mine {
@@ -73,15 +72,12 @@ pub fn hdr(reference: &[Vec3], test: &[Vec3], size: [usize; 2], pixels_per_degre
         largest
     };
     // The largest of all does not depend on who found it.
-    std::thread::scope(|scope| {
-        let shares = exposures.chunks(exposures.len().div_ceil(threads));
-        let workers: Vec<_> = shares.map(|share| scope.spawn(|| largest_of(share))).collect();
-        let mut largest = vec![0.0; reference.len()];
-        for worker in workers {
-            raise(&mut largest, &worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
-        }
-        largest
-    })
+    let shares: Vec<_> = exposures.chunks(exposures.len().div_ceil(threads(0))).collect();
+    let mut largest = vec![0.0; reference.len()];
+    for found in map_in_order(&shares, 0, |share| largest_of(share)) {
+        raise(&mut largest, &found);
+    }
+    largest
 }
 
 /// Raises every value to at least that of `others`.
