@@ -71,7 +71,7 @@ fn a_mirror_shows_what_a_twin_behind_it_would_show() {
 /// From the plane y = 0 to the plane x = 0, facing +x.
 fn tilted_to_face_x() -> Transform {
     use glam::{DAffine3, DMat3};
-    Transform::new(DAffine3::from_mat3(DMat3::from_rotation_z(-std::f64::consts::FRAC_PI_2))).unwrap()
+    Transform::new(DAffine3::from_mat3(DMat3::from_rotation_z(-std::f64::consts::FRAC_PI_2))).expect("a turn")
 }
 
 #[test]
@@ -216,7 +216,8 @@ fn standing() -> Vec<Stage> {
         let place = |y: f64| {
             use glam::{DAffine3, DMat3, DVec3};
             let turn = DMat3::from_rotation_y(turn.to_radians());
-            Transform::new(DAffine3::from_mat3_translation(turn, DVec3::new(0.013, y, -0.021))).unwrap()
+            Transform::new(DAffine3::from_mat3_translation(turn, DVec3::new(0.013, y, -0.021)))
+                .expect("a turn")
         };
         stages.push(Stage::new().with(cuboid(1.0, 0.6, 1.0), glass(1.5), place(0.3)));
         let mut with_mesh = Stage::new();

@@ -1,6 +1,7 @@
 //! Small scenes in a few words, and the light along single rays through them.
 
 #![allow(dead_code, reason = "each test file uses its own part")]
+#![allow(clippy::unwrap_used, reason = "a stage that does not stand fails its test")]
 
 use glam::{DAffine3, DMat3, Vec2, Vec3};
 use heliostat_geometry::shape::{Cuboid, Plane, Rectangle, Sphere};
