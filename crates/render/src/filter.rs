@@ -16,6 +16,11 @@
 //! A uniform wall keeps its value to the last bits at any number of samples, and the estimate is unbiased from 2
 //! samples on. With 1 sample per pixel there is no filter: the sample lies on the centre of the pixel.
 //!
+//! # Choice
+//!
+//! A wide filter spreads the samples of a pixel over its neighbours, so it wants more of them: with 4 samples the box is
+//! the quietest, from 16 on Blackman-Harris draws the smoothest edges; Mitchell and Lanczos sharpen, and ring.
+//!
 //! # Source
 //! Ernst, Stamminger, Greiner, "Filter Importance Sampling", IRT 2006; Mitchell, Netravali, "Reconstruction Filters in
 //! Computer Graphics", SIGGRAPH 1988; Harris, "On the Use of Windows for Harmonic Analysis", Proc. IEEE 1978 (the
@@ -209,5 +214,4 @@ impl Table {
 }
 
 #[cfg(test)]
-#[path = "filter/tests.rs"]
 mod tests;
