@@ -1,7 +1,7 @@
 //! Pictures against their golden mean and variance. On failure the rendering lies in `target/golden/`.
 
-use heliostat_io::image_file::Limits;
 use heliostat_io::exr_file::{ExrOptions, read_exr, write_exr};
+use heliostat_io::image_file::Limits;
 use heliostat_tests::{golden, scenes};
 
 #[test]
