@@ -49,7 +49,7 @@ fn cameras() -> Vec<Camera> {
         camera("orthographic", Projection::Orthographic { height: 5.0 }, None),
         camera("fisheye", Projection::Fisheye { fov: 3.1 }, None),
         camera("panorama", Projection::Panorama, None),
-        camera("cylindrical", Projection::Cylindrical { fov_x: 3.14, fov_y: 1.2 }, None),
+        camera("cylindrical", Projection::Cylindrical { fov_x: 3.0, fov_y: 1.2 }, None),
         camera("lens", plain, focus(FocusMethod::Lens, 0)),
         camera("lens_blades", plain, focus(FocusMethod::Lens, 5)),
         camera("post", plain, focus(FocusMethod::Post, 0)),

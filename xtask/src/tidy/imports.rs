@@ -35,6 +35,7 @@ const GRAPH: &[Allowed] = &[
             "glam",
             "half",
             "image",
+            "miniz_oxide",
             "png",
             "schemars",
             "serde",
