@@ -74,8 +74,9 @@ impl MaterialEval<'_> {
 
     /// Coverage in `[0, 1]`.
     pub(crate) fn opacity(&self, material: &Material) -> f32 {
-        let alpha = material.opacity.texture.map_or(1.0, |id| self.texture(id).w);
-        (material.opacity.factor * alpha).clamp(0.0, 1.0)
+        let coverage = |id: TextureId| texture_eval::coverage(&self.textures[id.index()], &self.at);
+        let coverage = material.opacity.texture.map_or(1.0, coverage);
+        (material.opacity.factor * coverage).clamp(0.0, 1.0)
     }
 
     /// The shading normal `ns`, bent by the relief of the material; unit, on the side of `ns`.

@@ -5,6 +5,7 @@
 
 use glam::{Vec2, Vec3, Vec4};
 use heliostat_scene::Image;
+use heliostat_scene::color::luminance;
 use heliostat_scene::texture::{CheckerSpace, Filtering, Pattern, Texture, UvTransform, Wrap};
 
 /// What a missing image looks like.
@@ -30,6 +31,16 @@ pub(crate) fn eval(texture: &Texture, at: &TexturePoint) -> Vec4 {
             color.extend(1.0)
         }
         Pattern::Missing => MAGENTA,
+    }
+}
+
+/// What a texture says of coverage: its alpha where it has one, else its luminance; a missing image covers.
+pub(crate) fn coverage(texture: &Texture, at: &TexturePoint) -> f32 {
+    let value = eval(texture, at);
+    match &texture.pattern {
+        Pattern::Image { image, .. } if image.channels.is_multiple_of(2) => value.w,
+        Pattern::Missing => 1.0,
+        Pattern::Image { .. } | Pattern::Checker { .. } => luminance(value.truncate()),
     }
 }
 

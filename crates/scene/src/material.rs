@@ -30,7 +30,8 @@ impl Default for ColorInput {
     }
 }
 
-/// A number that a texture may vary: `factor * luminance(texture)`, or `factor * alpha` for opacity.
+/// A number that a texture may vary: `factor * luminance(texture)`. For opacity the alpha of an image takes the place of
+/// its luminance, where it has one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FloatInput {
     /// The number, or the factor of the texture.

@@ -4,7 +4,7 @@
 //! ```toml
 //! [[material]]
 //! name = "glass"
-//! opacity = 1                    # 0 lets rays straight through; with a texture, its alpha
+//! opacity = 1                    # 0 lets rays straight through; with a texture, its alpha, or its luminance where it has no alpha
 //! bump = { texture = "noise", strength = 0.01 }              # metres of white; or
 //! # normal_map = { texture = "bricks_normal", strength = 1 } # tangent space, +y up
 //!
@@ -37,7 +37,7 @@ use serde::{Deserialize, Serialize};
 pub struct MaterialTable {
     /// Name, unique among materials; becomes the Cryptomatte name.
     pub name: Placed<String>,
-    /// Coverage from 0 to 1; with a texture, its alpha. 1 if left out.
+    /// Coverage from 0 to 1; with a texture, its alpha, or its luminance where it has no alpha. 1 if left out.
     pub opacity: Option<Texturable<Fraction>>,
     /// A height map that bends the shading normal.
     pub bump: Option<Placed<BumpTable>>,
@@ -120,8 +120,7 @@ impl MaterialTable {
         Ok(Material {
             name: self.name.to_string(),
             surface: Surface::Phong(phong),
-            // Alpha has no encoding: the image that gives the colour serves here too.
-            opacity: float_input(self.opacity.as_ref(), Fraction::f32, one, TextureUse::Color, textures)?,
+            opacity: float_input(self.opacity.as_ref(), Fraction::f32, one, TextureUse::Data, textures)?,
             relief: self.relief(textures)?,
         })
     }
