@@ -27,6 +27,16 @@ pub enum PngBits {
     Sixteen,
 }
 
+impl PngBits {
+    /// 8 or 16.
+    pub fn count(self) -> u8 {
+        match self {
+            Self::Eight => 8,
+            Self::Sixteen => 16,
+        }
+    }
+}
+
 /// How a frame becomes a PNG.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PngOptions {

@@ -9,8 +9,8 @@ pub(super) enum Curve {
     Smooth(Vec<f64>),
 }
 
-/// Slopes of a monotone cubic: within each piece the curve stays between its two keys; at local extremes, at the first and at the
-/// last key it is at rest, so that it joins the constant values outside without a kink.
+/// Slopes of a monotone cubic: within each piece the curve stays between its two keys; at local extremes, at the
+/// first and at the last key it is at rest, so that it joins the constant values outside without a kink.
 ///
 /// # Source
 /// Fritsch and Butland, "A Method for Constructing Local Monotone Piecewise Cubic Interpolants", SIAM J. Sci. Stat.

@@ -1,19 +1,19 @@
 //! `[[animation]]`: keyframes on any number of the scene file.
 //!
-//! The target is a path through the file: a section, the name of one of its tables where it has several, and keys; an index,
-//! or `x`, `y`, `z`, picks a component. Names with dots in them stand in quotes: `object."a.b".translate`. Before the first key and
-//! after the last the value rests.
+//! The target is a path through the file: a section, the name of one of its tables where it has several, and
+//! keys; an index, or `x`, `y`, `z`, picks a component. Names with dots in them stand in quotes:
+//! `object."a.b".translate`. Before the first key and after the last the value rests.
 //!
 //! | interpolation | between two keys |
 //! |---|---|
 //! | `step` | the value of the first; serves texts and `true` / `false` as well |
 //! | `linear` | a straight line |
-//! | `smooth` | a cubic without a kink that never leaves the range of the two keys, at rest at the first and the last key |
+//! | `smooth` | a cubic without kinks, never outside the range of its two keys, at rest at the first and last key |
 //!
 //! # Scene file
 //! ```toml
 //! [[animation]]
-//! target = "object.ball.translate.1"  # or camera.fov, camera.NAME.position, material.glass.phong.ior, render.samples, ...
+//! target = "object.ball.translate.1"  # camera.fov, camera.NAME.position, material.glass.phong.ior, render.samples
 //! interpolation = "smooth"            # if left out
 //! keys = [[0.0, 0.5], [1.0, 2.0], [2.0, 0.5]]   # [seconds, value]
 //! ```

@@ -83,7 +83,9 @@ macro_rules! whole_numbers {
         $(fn $method<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
             match self.value {
                 // Between two keyframes a whole number takes the nearest whole value.
-                Value::Animated(v) => visitor.visit_i64(v.round() as i64).map_err(|fault: Fault| fault.or_at(self.span)),
+                Value::Animated(v) => {
+                    visitor.visit_i64(v.round() as i64).map_err(|fault: Fault| fault.or_at(self.span))
+                }
                 _ => self.visit(visitor),
             }
         })*

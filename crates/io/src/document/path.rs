@@ -33,7 +33,8 @@ pub(crate) struct DottedPath {
 impl DottedPath {
     /// Reads parts between dots; a part with dots in it stands in `"` or `'`.
     ///
-    /// `offset` is the byte of the text number `source` where `path` starts; without one, every part has the place `whole`.
+    /// `offset` is the byte of the text number `source` where `path` starts; without one, every part has the
+    /// place `whole`.
     ///
     /// # Errors
     /// On an empty part or an open quote.

@@ -71,13 +71,20 @@ pub struct ObjOptions {
     pub smooth_angle: f32,
     /// What becomes one mesh.
     pub split: Split,
+    /// Whether material libraries are read; without them every material is grey.
+    pub materials: bool,
     /// Longest file to read, in bytes; at most 4 GiB.
     pub max_bytes: u64,
 }
 
 impl Default for ObjOptions {
     fn default() -> Self {
-        Self { smooth_angle: 60_f32.to_radians(), split: Split::Groups, max_bytes: u64::from(u32::MAX) }
+        Self {
+            smooth_angle: 60_f32.to_radians(),
+            split: Split::Groups,
+            materials: true,
+            max_bytes: u64::from(u32::MAX),
+        }
     }
 }
 
@@ -135,6 +142,9 @@ pub fn parse_obj(
         return Err(LoadError::new(path, "is longer than 4 GiB").with_help("split it into several files"));
     }
     let mut raw = parse::parse(&source)?;
+    if !options.materials {
+        raw.libraries.clear();
+    }
     let materials = libraries::load(&source, &mut raw, files)?;
     normals::fill_in(&mut raw, options.smooth_angle);
     let objects = build::objects(&source, &mut raw, options.split, &|name| materials.of(name))?;

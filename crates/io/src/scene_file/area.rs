@@ -4,6 +4,7 @@
 //!
 //! # Scene file
 //! ```toml
+//! [[light]]
 //! [light.area]
 //! rectangle = { size = [1, 2] }  # exactly one of the finite shapes, or mesh = "name"; see the module `shape`
 //! translate = [0, 4, 0]          # scale, rotate, translate or matrix, as for an object

@@ -3,15 +3,16 @@
 use super::mesh::{MeshTable, ModelTable, smooth_angle};
 use super::texture::EncodingMode;
 use crate::document::{Fault, Placed};
-use crate::error::{LoadError, quote};
+use crate::error::{LoadError, Warning, quote};
 use crate::image_file::{Limits, read_image};
 use crate::nearest::nearest_name;
 use crate::obj::{ObjModel, ObjOptions, Split, load_obj};
 use crate::texture_cache::TextureCache;
-use heliostat_geometry::TriMesh;
+use heliostat_geometry::{Aabb, TriMesh};
 use heliostat_scene::Image;
 use heliostat_scene::image::Encoding;
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -30,14 +31,34 @@ impl From<Fault> for Trouble {
     }
 }
 
-/// What makes two readings of an OBJ file the same: path, smooth angle, all in one.
-type ModelKey = (PathBuf, u32, bool);
+/// What makes two readings of an OBJ file the same.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct ModelKey {
+    path: PathBuf,
+    smooth_angle_bits: u32,
+    is_whole: bool,
+    has_materials: bool,
+}
+
+/// A model with the box around all of it.
+#[derive(Debug)]
+pub(crate) struct LoadedModel {
+    pub(crate) model: ObjModel,
+    pub(crate) bounds: Aabb,
+}
+
+/// A mesh with the box around it.
+#[derive(Clone, Debug)]
+pub(crate) struct LoadedMesh {
+    pub(crate) mesh: Arc<TriMesh>,
+    pub(crate) bounds: Aabb,
+}
 
 /// Files that have been read.
 #[derive(Debug)]
 pub(crate) struct Assets {
     folder: PathBuf,
-    models: HashMap<ModelKey, Arc<ObjModel>>,
+    models: HashMap<ModelKey, Arc<LoadedModel>>,
     /// Images as their files say, as sRGB, and as plain numbers.
     images: [TextureCache; 3],
 }
@@ -78,57 +99,70 @@ impl Assets {
         self.images[cache].image(&path).map_err(|error| fault_at(file, &path, &error, made_by))
     }
 
-    /// All of an OBJ file as one mesh.
+    /// All of an OBJ file as one mesh, and what its reader warns of.
     ///
     /// # Errors
     /// When the file cannot be read, is damaged, or has no faces.
-    pub(crate) fn mesh(&mut self, table: &MeshTable) -> Result<Arc<TriMesh>, Trouble> {
-        let angle = smooth_angle(table.smooth_angle);
-        let model = self.obj(&table.file, angle, Split::Whole, table.made_by.as_deref())?;
-        let mesh = model.objects.first().map(|object| Arc::clone(&object.mesh));
-        mesh.ok_or_else(|| Trouble::Here(without_faces(&table.file)))
+    pub(crate) fn mesh(&mut self, table: &MeshTable) -> Result<(LoadedMesh, &[Warning]), Trouble> {
+        let options = ObjOptions {
+            smooth_angle: smooth_angle(table.smooth_angle),
+            split: Split::Whole,
+            materials: false,
+            ..ObjOptions::default()
+        };
+        let loaded = self.obj(&table.file, &options, table.made_by.as_deref())?;
+        let object = loaded.model.objects.first().ok_or_else(|| without_faces(&table.file))?;
+        Ok((LoadedMesh { mesh: Arc::clone(&object.mesh), bounds: loaded.bounds }, &loaded.model.warnings))
     }
 
     /// An OBJ file as it is.
     ///
     /// # Errors
     /// When the file cannot be read, is damaged, or has no faces.
-    pub(crate) fn model(&mut self, table: &ModelTable) -> Result<Arc<ObjModel>, Trouble> {
-        let angle = smooth_angle(table.smooth_angle);
-        self.obj(&table.file, angle, Split::Groups, table.made_by.as_deref())
+    pub(crate) fn model(&mut self, table: &ModelTable) -> Result<Arc<LoadedModel>, Trouble> {
+        let options = ObjOptions {
+            smooth_angle: smooth_angle(table.smooth_angle),
+            materials: table.material.is_none(),
+            ..ObjOptions::default()
+        };
+        self.obj(&table.file, &options, table.made_by.as_deref()).map(Arc::clone)
     }
 
     /// An OBJ file that is the whole scene.
     ///
     /// # Errors
     /// When the file cannot be read, is damaged, or has no faces.
-    pub(crate) fn lone_model(&mut self, path: &Path) -> Result<Arc<ObjModel>, Trouble> {
-        let model = load_obj(path, &ObjOptions::default(), &mut self.images[0]);
-        model.map(Arc::new).map_err(Trouble::Elsewhere)
+    pub(crate) fn lone_model(&mut self, path: &Path) -> Result<ObjModel, LoadError> {
+        load_obj(path, &ObjOptions::default(), &mut self.images[0])
     }
 
     fn obj(
         &mut self,
         file: &Placed<String>,
-        smooth_angle: f32,
-        split: Split,
+        options: &ObjOptions,
         made_by: Option<&str>,
-    ) -> Result<Arc<ObjModel>, Trouble> {
+    ) -> Result<&Arc<LoadedModel>, Trouble> {
         let path = self.folder.join(file.as_str());
-        let key = (path.clone(), smooth_angle.to_bits(), split == Split::Whole);
-        if let Some(model) = self.models.get(&key) {
-            return Ok(Arc::clone(model));
-        }
-        let options = ObjOptions { smooth_angle, split, ..ObjOptions::default() };
-        match load_obj(&path, &options, &mut self.images[0]) {
-            Ok(model) => {
-                let model = Arc::new(model);
-                self.models.insert(key, Arc::clone(&model));
-                Ok(model)
+        let key = ModelKey {
+            path: path.clone(),
+            smooth_angle_bits: options.smooth_angle.to_bits(),
+            is_whole: options.split == Split::Whole,
+            has_materials: options.materials,
+        };
+        match self.models.entry(key) {
+            Entry::Occupied(entry) => Ok(entry.into_mut()),
+            Entry::Vacant(entry) => {
+                let model = load_obj(&path, options, &mut self.images[0]).map_err(|error| {
+                    // An error with a place lies inside a file; one without is about the file that the scene names.
+                    match error.report().place {
+                        Some(_) => Trouble::Elsewhere(error),
+                        None => Trouble::Here(fault_at(file, &path, &error, made_by)),
+                    }
+                })?;
+                let boxes = model.objects.iter().map(|object| object.mesh.bounds());
+                let bounds = boxes.fold(Aabb::EMPTY, Aabb::union);
+                Ok(entry.insert(Arc::new(LoadedModel { model, bounds })))
             }
-            // An error with a place lies inside a file; one without is about the file that the scene names.
-            Err(error) if error.report().place.is_some() => Err(Trouble::Elsewhere(error)),
-            Err(error) => Err(fault_at(file, &path, &error, made_by).into()),
         }
     }
 }

@@ -1,28 +1,26 @@
 //! From the tables of a scene file to a scene.
 
-use super::assets::{Assets, Trouble};
+use super::assets::{Assets, LoadedModel, Trouble};
 use super::environment::EnvironmentTable;
 use super::light::LightTable;
-use super::material::{FindTexture, TextureUse};
 use super::mesh::ModelTable;
 use super::motion::{Motions, PixelSize};
 use super::object::ObjectTable;
 use super::stage::{Cast, Stage};
 use super::targets::Targets;
-use super::texture::{EncodingMode, TextureTable};
+use super::texture::EncodingMode;
+use super::textures::Textures;
 use super::{Directory, SceneFile};
 use crate::document::{Fault, Placed, Sources};
 use crate::error::Warning;
-use crate::obj::{ObjModel, Placement};
-use heliostat_geometry::{Aabb, Transform, TriMesh};
+use crate::obj::Placement;
+use heliostat_geometry::{Aabb, Transform};
 use heliostat_scene::light::LightKind;
 use heliostat_scene::material::Phong;
 use heliostat_scene::object::Geometry;
 use heliostat_scene::scene::Background;
-use heliostat_scene::texture::Pattern;
 use heliostat_scene::{
-    Camera, Light, Material, MaterialId, MeshId, Motion, Object, RenderSettings, Rgb, Scene, Texture,
-    TextureId,
+    Camera, Light, Material, MaterialId, MeshId, Motion, Object, RenderSettings, Rgb, Scene,
 };
 use std::sync::Arc;
 
@@ -84,6 +82,18 @@ pub(crate) fn build(
     Ok(Built { scene: builder.scene, settings, warnings: builder.warnings })
 }
 
+/// Adds warnings, each once: several tables may name the same file.
+fn warn(warnings: &mut Vec<Warning>, new: &[Warning]) {
+    for warning in new {
+        if !warnings.contains(warning) {
+            warnings.push(warning.clone());
+        }
+    }
+}
+
+/// Magenta: what stands for an image that could not be read.
+const MISSING: Rgb = Rgb::new(1.0, 0.0, 1.0);
+
 struct Builder<'a> {
     file: &'a SceneFile,
     directory: &'a Directory,
@@ -94,64 +104,50 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    /// Textures and materials; textures that no material uses are read too, so that a missing file is told.
     fn materials(&mut self) -> Result<(), Fault> {
-        let mut textures = Textures {
-            directory: self.directory,
-            tables: &self.file.texture,
-            assets: self.assets,
-            sources: self.sources,
-            made: vec![[None; 2]; self.file.texture.len()],
-            textures: Vec::new(),
-            warnings: Vec::new(),
-        };
-        let materials: Vec<Material> = self
-            .file
-            .material
-            .iter()
-            .map(|material| material.build(&mut textures))
-            .collect::<Result<_, _>>()?;
-        for index in 0..self.file.texture.len() {
-            if textures.made[index] == [None; 2] {
-                textures.get(index, TextureUse::Color);
-            }
+        let mut textures = Textures::new(self.directory, &self.file.texture, self.assets, self.sources);
+        for table in &self.file.material {
+            self.scene.materials.push(table.build(&mut textures)?);
         }
-        self.scene.textures = textures.textures;
-        self.warnings.append(&mut textures.warnings);
-        self.scene.materials = materials;
+        let (textures, warnings) = textures.finish();
+        self.scene.textures = textures;
+        self.warnings.extend(warnings);
         Ok(())
     }
 
-    fn meshes(&mut self) -> Result<Vec<Arc<TriMesh>>, Trouble> {
-        let meshes: Vec<_> =
-            self.file.mesh.iter().map(|table| self.assets.mesh(table)).collect::<Result<_, _>>()?;
-        self.scene.meshes.clone_from(&meshes);
-        Ok(meshes)
+    /// The boxes around the meshes, in local space.
+    fn meshes(&mut self) -> Result<Vec<Aabb>, Trouble> {
+        let mut boxes = Vec::new();
+        for table in &self.file.mesh {
+            let (loaded, warnings) = self.assets.mesh(table)?;
+            warn(&mut self.warnings, warnings);
+            self.scene.meshes.push(loaded.mesh);
+            boxes.push(loaded.bounds);
+        }
+        Ok(boxes)
     }
 
-    fn models(&mut self) -> Result<Vec<Arc<ObjModel>>, Trouble> {
-        let models: Vec<Arc<ObjModel>> =
-            self.file.model.iter().map(|table| self.assets.model(table)).collect::<Result<_, _>>()?;
-        for model in &models {
-            self.warnings.extend(model.warnings.iter().cloned());
+    fn models(&mut self) -> Result<Vec<Arc<LoadedModel>>, Trouble> {
+        let mut models = Vec::new();
+        for table in &self.file.model {
+            let loaded = self.assets.model(table)?;
+            warn(&mut self.warnings, &loaded.model.warnings);
+            models.push(loaded);
         }
         Ok(models)
     }
 
     /// The boxes of objects and models in local space.
-    fn boxes(&self, meshes: &[Arc<TriMesh>], models: &[Arc<ObjModel>]) -> Result<Vec<Aabb>, Fault> {
+    fn boxes(&self, meshes: &[Aabb], models: &[Arc<LoadedModel>]) -> Result<Vec<Aabb>, Fault> {
         let objects = self.file.object.iter().map(|object| {
             let keys = object.shape_keys();
             Ok(match (keys.shape()?, keys.mesh) {
                 (Some(shape), _) => shape.geometry().bounds(),
-                (None, Some(name)) => meshes[self.directory.meshes.find(name)?].bounds(),
+                (None, Some(name)) => meshes[self.directory.meshes.find(name)?],
                 (None, None) => Aabb::EMPTY,
             })
         });
-        let union = |model: &Arc<ObjModel>| {
-            model.objects.iter().fold(Aabb::EMPTY, |bounds, object| bounds.union(object.mesh.bounds()))
-        };
-        objects.chain(models.iter().map(|model| Ok(union(model)))).collect()
+        objects.chain(models.iter().map(|loaded| Ok(loaded.bounds))).collect()
     }
 
     fn cameras(&mut self, stage: &Stage, targets: &Targets<'_>) -> Result<(), Fault> {
@@ -195,7 +191,7 @@ impl Builder<'_> {
         for (i, (object, motion)) in self.file.object.iter().zip(motions).enumerate() {
             let keys = object.shape_keys();
             let geometry = self.geometry(keys.shape()?, keys.mesh)?;
-            let materials = self.materials_of(object)?;
+            let materials = self.materials_of(object, &geometry)?;
             self.scene.objects.push(Object {
                 name: self.directory.things.name(i).to_owned(),
                 geometry,
@@ -221,12 +217,32 @@ impl Builder<'_> {
         }
     }
 
-    fn materials_of(&mut self, object: &ObjectTable) -> Result<Vec<MaterialId>, Fault> {
+    fn materials_of(&mut self, object: &ObjectTable, geometry: &Geometry) -> Result<Vec<MaterialId>, Fault> {
         let named = object.material_indices(&self.directory.materials)?;
         if named.is_empty() {
             return Ok(vec![self.default_material()]);
         }
+        if named.len() > 1 {
+            let slots = self.slots(geometry);
+            if let Some(unused) = object.materials.as_ref().and_then(|names| names.get(slots)) {
+                let fault = Fault::new(format!("this material is not used: the object has room for {slots}"))
+                    .with_help("remove it, or give the mesh more `usemtl`")
+                    .or_at(unused.span());
+                self.warnings.push(self.sources.warning(&fault));
+            }
+        }
         Ok(named.into_iter().map(|index| MaterialId(index as u32)).collect())
+    }
+
+    /// How many materials a geometry can have.
+    fn slots(&self, geometry: &Geometry) -> usize {
+        match geometry {
+            Geometry::Shape(_) => 1,
+            Geometry::Mesh(id) => {
+                let slots = &self.scene.meshes[id.index()].slots;
+                1 + slots.iter().copied().max().map_or(0, usize::from)
+            }
+        }
     }
 
     /// The material of objects that name none; a material of the file with that name takes its place.
@@ -239,7 +255,11 @@ impl Builder<'_> {
         MaterialId(index as u32)
     }
 
-    fn place_models(&mut self, models: &[Arc<ObjModel>], motions: &[Motion<Transform>]) -> Result<(), Fault> {
+    fn place_models(
+        &mut self,
+        models: &[Arc<LoadedModel>],
+        motions: &[Motion<Transform>],
+    ) -> Result<(), Fault> {
         let first = self.file.object.len();
         for (i, table) in self.file.model.iter().enumerate() {
             let table: &ModelTable = table;
@@ -251,7 +271,7 @@ impl Builder<'_> {
                 visible: table.visible.unwrap_or(true),
                 casts_shadow: table.casts_shadow.unwrap_or(true),
             };
-            models[i].append_to(&mut self.scene, &placement);
+            models[i].model.append_to(&mut self.scene, &placement);
         }
         Ok(())
     }
@@ -305,66 +325,5 @@ impl Builder<'_> {
             }
         };
         Ok(())
-    }
-}
-
-/// Magenta: what stands for an image that could not be read.
-const MISSING: Rgb = Rgb::new(1.0, 0.0, 1.0);
-
-/// Makes the textures of the scene as materials ask for them.
-struct Textures<'a> {
-    directory: &'a Directory,
-    tables: &'a [Placed<TextureTable>],
-    assets: &'a mut Assets,
-    sources: &'a Sources,
-    /// For each table its texture for colours and for data.
-    made: Vec<[Option<TextureId>; 2]>,
-    textures: Vec<Texture>,
-    warnings: Vec<Warning>,
-}
-
-impl FindTexture for Textures<'_> {
-    fn find(&mut self, name: &Placed<String>, used_for: TextureUse) -> Result<TextureId, Fault> {
-        let index = self.directory.textures.find(name)?;
-        Ok(self.get(index, used_for))
-    }
-}
-
-impl Textures<'_> {
-    fn get(&mut self, index: usize, used_for: TextureUse) -> TextureId {
-        let table = &self.tables[index];
-        let encoding = match (table.encoding(), used_for) {
-            (EncodingMode::Auto, TextureUse::Data) => EncodingMode::Linear,
-            (encoding, _) => encoding,
-        };
-        // Only an image that is read as the file says depends on its use.
-        let depends = table.image.is_some() && table.encoding() == EncodingMode::Auto;
-        let slot = usize::from(depends && used_for == TextureUse::Data);
-        if let Some(id) = self.made[index][slot] {
-            return id;
-        }
-        let id = TextureId(self.textures.len() as u32);
-        let pattern = self.pattern(table, encoding);
-        self.textures.push(Texture { name: table.name.to_string(), pattern, uv: table.uv_transform() });
-        self.made[index][slot] = Some(id);
-        id
-    }
-
-    fn pattern(&mut self, table: &TextureTable, encoding: EncodingMode) -> Pattern {
-        if let Some(checker) = &table.checker {
-            return checker.pattern();
-        }
-        let Some(file) = &table.image else { return Pattern::Missing };
-        let made_by = table.made_by.as_ref().map(|command| command.as_str());
-        match self.assets.image(file, encoding, made_by) {
-            Ok(image) => {
-                let [wrap_u, wrap_v] = table.wraps();
-                Pattern::Image { image, wrap_u, wrap_v, filtering: table.filtering() }
-            }
-            Err(fault) => {
-                self.warnings.push(self.sources.warning(&fault));
-                Pattern::Missing
-            }
-        }
     }
 }

@@ -1,7 +1,7 @@
 //! `[camera]`, or several `[[camera]]` with names: where from, which projection.
 //!
-//! A camera without `look_at` looks along -z. Pictures are `up` side up; a camera that looks straight up or down and names no
-//! `up` has -z at the upper border.
+//! A camera without `look_at` looks along -z. Pictures are `up` side up; a camera that looks straight up or down
+//! and names no `up` has -z at the upper border.
 //!
 //! # Scene file
 //! ```toml

@@ -1,8 +1,8 @@
 //! Setting one value of a document by its path: what keyframes and `--set` have in common.
 //!
-//! A path is a section, the name of one of its tables where it has several, and keys; an index, or `x`, `y`, `z`, picks a
-//! component of an array. A number that stands for an array (`scale = 2`, a grey) becomes that array when a component of it
-//! is set, and so does a `translate`, `rotate`, `scale`, `position` or `up` that was left out.
+//! A path is a section, the name of one of its tables where it has several, and keys; an index, or `x`, `y`, `z`,
+//! picks a component of an array. A number that stands for an array (`scale = 2`, a grey) becomes that array when
+//! a component of it is set, and so does a `translate`, `rotate`, `scale`, `position` or `up` that was left out.
 
 use super::names::implicit_name;
 use crate::document::{Fault, Key, Node, Segment, Span, Table, Value};
@@ -131,8 +131,8 @@ impl Editor<'_> {
     }
 }
 
-/// Stands for a key that is left out and has no array to take a component of. It is refused when it is read, because an
-/// unknown key is refused before that.
+/// Stands for a key that is left out and has no array to take a component of. It is refused when it is read,
+/// because an unknown key is refused before that.
 fn without_components(segment: &Segment) -> Node {
     let name = quote(&segment.text);
     let fault = Fault::new(format!("{name} is not in the file, so it has no components"))

@@ -9,11 +9,12 @@
 //! samples = 16                   # shadow rays per point, for area lights and wide directional ones; 1 if left out
 //! # exactly one of:
 //! ambient = {}                                                   # the same from everywhere, without shadow
-//! point = { position = [0, 4, 0], falloff = "inverse_square" }   # W/sr; falloff "none" keeps the intensity at any distance
+//! point = { position = [0, 4, 0], falloff = "inverse_square" }   # W/sr; falloff "none": the same at any distance
 //! directional = { direction = [0, -1, 0], angle = 0.53 }         # W/m²; degrees across the source, 0 if left out
+//! # half angles in degrees; direction = [0, -1, 0] can take the place of look_at
 //! spot = { position = [0, 4, 0], look_at = "ball", inner = 24, outer = 30, falloff = "inverse_square" }
-//!                                                                # half angles; or direction = [..] in place of look_at
-//! area = { rectangle = { size = [1, 1] }, translate = [0, 4, 0], look_at = [0, 0, 0] }   # W/(m² sr); see the module `area`
+//! # W/(m² sr); see the module `area`
+//! area = { rectangle = { size = [1, 1] }, translate = [0, 4, 0], look_at = [0, 0, 0] }
 //! ```
 
 use super::area::AreaTable;

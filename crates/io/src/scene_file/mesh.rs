@@ -1,7 +1,7 @@
 //! `[[mesh]]` and `[[model]]`: OBJ files.
 //!
-//! A mesh is all of a file as one thing that objects share; a model is a file as it is, each group an object with its
-//! own materials.
+//! A mesh is all of a file as one thing that objects share; a model is a file as it is, each group an object with
+//! its own materials.
 //!
 //! # Scene file
 //! ```toml

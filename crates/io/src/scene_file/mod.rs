@@ -1,7 +1,7 @@
 //! The scene file: TOML tables for everything in a scene, and their meaning.
 //!
-//! This is the manual of the format: one module for each section, with its keys and their defaults; the JSON Schema that
-//! editors use is made from the same types ([`crate::schema`]).
+//! This is the manual of the format: one module for each section, with its keys and their defaults; the JSON
+//! Schema that editors use is made from the same types ([`crate::schema`]).
 //!
 //! - Right-handed, y up. Lengths in metres, angles in degrees, times in seconds.
 //! - Colours are linear Rec.709: a number for grey, or `[red, green, blue]`.
@@ -62,6 +62,7 @@ mod stage;
 mod targets;
 pub mod texturable;
 pub mod texture;
+mod textures;
 pub mod time;
 pub mod value;
 

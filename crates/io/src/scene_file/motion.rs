@@ -1,7 +1,8 @@
 //! Poses over the shutter: as few as keep the picture right.
 //!
-//! The renderer interpolates matrices linearly between evenly spaced poses. A turning thing leaves its arc on a chord, so the number of
-//! poses is doubled until no corner of its box is further than half a pixel from where it belongs.
+//! The renderer interpolates matrices linearly between evenly spaced poses. A turning thing leaves its arc on a
+//! chord, so the number of poses is doubled until no corner of its box is further than half a pixel from where it
+//! belongs.
 
 use super::SceneFile;
 use super::stage::{Cast, Stage};

@@ -4,8 +4,8 @@
 //! ```toml
 //! [[object]]
 //! name = "ball"                  # `object`, `object2`, ... if left out
-//! sphere = { radius = 1 }        # exactly one of the shapes, or mesh = "name"; see the module `shape`
-//! material = "glass"             # or materials = ["wall", "roof"] for the slots of a mesh; a matte grey if left out
+//! sphere = { radius = 1 }        # exactly one shape, or mesh = "name"; see the module `shape`
+//! material = "glass"             # a matte grey if left out; materials = ["wall", "roof"] for the slots of a mesh
 //! scale = 1                      # see the module `placement`
 //! rotate = [0, 0, 0]
 //! translate = [0, 1, 0]
@@ -55,7 +55,8 @@ pub struct ObjectTable {
     pub mesh: Option<Placed<String>>,
     /// The name of a `[[material]]`. A matte grey named `default` if left out.
     pub material: Option<Placed<String>>,
-    /// Names of materials by the slots of a mesh (`usemtl` in the order of the file); the last serves all further slots.
+    /// Names of materials by the slots of a mesh (`usemtl` in the order of the file); the last serves all further
+    /// slots.
     pub materials: Option<Placed<Vec<Placed<String>>>>,
     /// Scale, a number or `[x, y, z]`.
     pub scale: Option<Placed<Splat<NonZero, 3>>>,

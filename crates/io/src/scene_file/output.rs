@@ -10,6 +10,7 @@
 //! ```
 
 use super::number::Number;
+use crate::png_file::PngBits;
 use crate::view::{View, ViewTransform};
 use heliostat_scene::frame::Depth;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -53,26 +54,6 @@ pub enum ExrDepth {
     Half,
     /// 32-bit floats.
     Float,
-}
-
-/// Bits per channel of a PNG.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum PngBits {
-    /// 256 steps.
-    #[default]
-    Eight,
-    /// 65,536 steps.
-    Sixteen,
-}
-
-impl PngBits {
-    /// 8 or 16.
-    pub fn count(self) -> u8 {
-        match self {
-            Self::Eight => 8,
-            Self::Sixteen => 16,
-        }
-    }
 }
 
 impl Serialize for PngBits {

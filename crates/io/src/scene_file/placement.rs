@@ -3,7 +3,7 @@
 //! # Scene file
 //! ```toml
 //! scale     = 2                  # or [x, y, z]; negative numbers mirror
-//! rotate    = [0, 90, 0]         # degrees about x, then about y, then about z, counter-clockwise seen from the tip of the axis
+//! rotate    = [0, 90, 0]         # degrees about x, then y, then z, counter-clockwise seen from the tip of the axis
 //! translate = [0, 1, 0]          # metres
 //! ```
 //! or, in place of the three, three rows of four numbers (a fourth row must be `[0, 0, 0, 1]`):

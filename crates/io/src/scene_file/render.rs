@@ -50,8 +50,8 @@ pub struct RenderTable {
     pub integrator: Option<IntegratorName>,
     /// Reconstruction filter; `blackman_harris` if left out.
     pub filter: Option<FilterName>,
-    /// Radius of the filter in pixels; 0.5 for `box`, 1 for `tent`, 1.5 for `gaussian` and `blackman_harris`, 2 for `mitchell`,
-    /// 3 for `lanczos` if left out.
+    /// Radius of the filter in pixels; 0.5 for `box`, 1 for `tent`, 1.5 for `gaussian` and `blackman_harris`, 2
+    /// for `mitchell`, 3 for `lanczos` if left out.
     pub filter_radius: Option<Positive>,
     /// Seed of all random numbers; 0 if left out.
     pub seed: Option<u64>,

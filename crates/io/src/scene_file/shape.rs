@@ -1,7 +1,7 @@
 //! What an object or an area light is made of: one of the analytic shapes, or a mesh.
 //!
-//! Flat shapes lie in the plane y = 0 and face up; cylinder and cone stand on it; sphere, cuboid and torus are centred
-//! at the origin. `scale`, `rotate` and `translate` put them into the world; see [`super::placement`].
+//! Flat shapes lie in the plane y = 0 and face up; cylinder and cone stand on it; sphere, cuboid and torus are
+//! centred at the origin. `scale`, `rotate` and `translate` put them into the world; see [`super::placement`].
 //!
 //! # Scene file
 //! ```toml

@@ -2,9 +2,9 @@
 //!
 //! # Scene file
 //! ```toml
-//! diffuse = 0.7                                        # grey
-//! diffuse = [0.7, 0.2, 0.1]                            # a colour
-//! diffuse = { texture = "wood" }                       # the texture as it is
+//! ambient = 0.7                                        # grey
+//! mirror = [0.7, 0.2, 0.1]                             # a colour
+//! specular = { texture = "wood" }                      # the texture as it is
 //! diffuse = { texture = "wood", factor = [1, 0.9, 0.8] }
 //! ```
 

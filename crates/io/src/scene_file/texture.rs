@@ -14,7 +14,8 @@
 //!
 //! [[texture]]
 //! name = "tiles"
-//! checker = { even = 0.8, odd = [0.1, 0.1, 0.2], space = "uv" }   # or "local": cubes of one metre in the space of the object
+//! # space = "local" makes cubes of one metre in the space of the object
+//! checker = { even = 0.8, odd = [0.1, 0.1, 0.2], space = "uv" }
 //! scale = 4
 //! ```
 

@@ -1,8 +1,8 @@
 //! `[time]`: frames, and how long the shutter is open.
 //!
-//! Frame n shows the moment `(n - first_frame) / frame_rate` seconds. The shutter opens half of its time before that moment and
-//! closes half after, so that a blurred thing lies around the place where a sharp picture shows it; what cannot be
-//! blurred (lights, materials, focus) is as it is at that moment.
+//! Frame n shows the moment `(n - first_frame) / frame_rate` seconds. The shutter opens half of its time before
+//! that moment and closes half after, so that a blurred thing lies around the place where a sharp picture shows
+//! it; what cannot be blurred (lights, materials, focus) is as it is at that moment.
 //!
 //! # Scene file
 //! ```toml

@@ -8,7 +8,6 @@ use crate::obj::ObjModel;
 use crate::scene_file::{Assets, Built, SceneFile, Trouble};
 use heliostat_scene::RenderSettings;
 use std::path::Path;
-use std::sync::Arc;
 
 /// Sections that flags can set beside a model.
 const SECTIONS: [&str; 3] = ["render", "output", "time"];
@@ -17,7 +16,7 @@ const SECTIONS: [&str; 3] = ["render", "output", "time"];
 #[derive(Debug)]
 pub(super) struct LoneModel {
     name: String,
-    model: Arc<ObjModel>,
+    model: ObjModel,
 }
 
 impl LoneModel {
@@ -35,7 +34,7 @@ impl LoneModel {
         }
         Ok(Self {
             name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
-            model: assets.lone_model(path)?,
+            model: assets.lone_model(path).map_err(Trouble::Elsewhere)?,
         })
     }
 

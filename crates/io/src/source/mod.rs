@@ -1,7 +1,7 @@
 //! Opening a scene: a `.toml` scene file, or a lone `.obj`.
 //!
-//! A [`Source`] keeps the document and the files that it names; [`Source::shot`] evaluates it at a frame. Meshes and images are
-//! read once and shared by all shots.
+//! A [`Source`] keeps the document and the files that it names; [`Source::shot`] evaluates it at a frame. Meshes
+//! and images are read once and shared by all shots.
 
 mod document;
 mod lone_model;
@@ -27,8 +27,8 @@ const MOST_BYTES: u64 = 64 << 20;
 /// What the command line adds to a file.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct OpenOptions {
-    /// Values that replace those of the file, as `--set PATH=VALUE`: a path as in [`crate::animation`], and a TOML value; a
-    /// word without quotes is a text. They win over keyframes of the same value.
+    /// Values that replace those of the file, as `--set PATH=VALUE`: a path as in [`crate::animation`], and a
+    /// TOML value; a word without quotes is a text. They win over keyframes of the same value.
     pub overrides: Vec<(String, String)>,
     /// The name of the camera, as `--camera NAME`.
     pub camera: Option<String>,

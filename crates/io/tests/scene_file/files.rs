@@ -154,6 +154,33 @@ fn models_are_objects_with_their_own_names_and_materials() {
 }
 
 #[test]
+fn a_material_without_a_slot_is_told() {
+    let folder = Folder::new();
+    folder.write("t.obj", TRIANGLE);
+    let scene = "camera = {}\nmaterial = [{ name = 'a' }, { name = 'b' }]\nmesh = [{ name = 'm', file = 't.obj' }]\n\
+                 object = [{ mesh = 'm', materials = ['a', 'b'] }]";
+    let shot = folder.open(scene, &OpenOptions::default()).unwrap().shot(1).unwrap();
+    assert_eq!(shot.warnings.len(), 1);
+    let report = shot.warnings[0].report();
+    assert_eq!(report.message, "this material is not used: the object has room for 1");
+    let place = report.place.as_ref().unwrap();
+    assert_eq!((place.line, &place.excerpt[place.span.clone()]), (4, "'b'"));
+}
+
+#[test]
+fn a_mesh_does_not_ask_for_its_material_library() {
+    let folder = Folder::new();
+    folder.write("t.obj", format!("mtllib missing.mtl\nusemtl red\n{TRIANGLE}"));
+    let warnings = |scene: &str| {
+        let source = folder.open(&format!("camera = {{}}\n{scene}"), &OpenOptions::default()).unwrap();
+        source.shot(1).unwrap().warnings.len()
+    };
+    assert_eq!(warnings("mesh = [{ name = 'm', file = 't.obj' }]"), 0);
+    assert_eq!(warnings("material = [{ name = 'a' }]\nmodel = [{ file = 't.obj', material = 'a' }]"), 0);
+    assert_eq!(warnings("model = [{ file = 't.obj' }, { name = 'again', file = 't.obj' }]"), 1);
+}
+
+#[test]
 fn a_lone_model_is_a_scene() {
     let folder = Folder::new();
     let path = folder.write("t.obj", TRIANGLE);

@@ -185,7 +185,7 @@ pub(crate) const FLIPS: &[Flip] = &[
     ("ObjectTable", "triangle", "plane = {}", "triangle = { a = [0, 0, 0], b = [1, 0, 0], c = [0, 1, 0] }"),
     ("ObjectTable", "mesh", "mesh = 'tri'", "mesh = 'other'"),
     ("ObjectTable", "material", "plane = {}", "plane = {}\nmaterial = 'red'"),
-    ("ObjectTable", "materials", "mesh = 'tri'", "mesh = 'tri'\nmaterials = ['red', 'blue']"),
+    ("ObjectTable", "materials", "mesh = 'tri'", "mesh = 'tri'\nmaterials = ['blue']"),
     ("ObjectTable", "scale", "plane = {}", "plane = {}\nscale = [1, 2, -3]"),
     ("ObjectTable", "rotate", "plane = {}", "plane = {}\nrotate = [1, 2, 3]"),
     ("ObjectTable", "translate", "plane = {}", "plane = {}\ntranslate = [1, 2, 3]"),

@@ -7,6 +7,7 @@ mod errors;
 mod files;
 mod flips;
 mod keys;
+mod manual;
 mod motion;
 mod overrides;
 mod read;

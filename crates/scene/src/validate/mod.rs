@@ -1,7 +1,7 @@
 //! Whether a scene can be rendered: every id points to something, every number means something.
 //!
-//! Scenes from files have passed stricter checks with places; this is for scenes made in code, and the last gate before the
-//! renderer, which trusts what passed it.
+//! Scenes from files have passed stricter checks with places; this is for scenes made in code, and the last gate
+//! before the renderer, which trusts what passed it.
 
 mod collect;
 mod issue;

@@ -1,0 +1,89 @@
+//! The textures of a scene, made as materials ask for them.
+
+use super::Directory;
+use super::assets::Assets;
+use super::material::{FindTexture, TextureUse};
+use super::texture::{EncodingMode, TextureTable};
+use crate::document::{Fault, Placed, Sources};
+use crate::error::Warning;
+use heliostat_scene::texture::Pattern;
+use heliostat_scene::{Texture, TextureId};
+
+/// Makes the textures of the scene as materials ask for them.
+pub(super) struct Textures<'a> {
+    directory: &'a Directory,
+    tables: &'a [Placed<TextureTable>],
+    assets: &'a mut Assets,
+    sources: &'a Sources,
+    /// For each table its texture for colours and for data.
+    made: Vec<[Option<TextureId>; 2]>,
+    textures: Vec<Texture>,
+    warnings: Vec<Warning>,
+}
+
+impl FindTexture for Textures<'_> {
+    fn find(&mut self, name: &Placed<String>, used_for: TextureUse) -> Result<TextureId, Fault> {
+        let index = self.directory.textures.find(name)?;
+        Ok(self.get(index, used_for))
+    }
+}
+
+impl<'a> Textures<'a> {
+    /// None made yet.
+    pub(super) fn new(
+        directory: &'a Directory,
+        tables: &'a [Placed<TextureTable>],
+        assets: &'a mut Assets,
+        sources: &'a Sources,
+    ) -> Self {
+        let made = vec![[None; 2]; tables.len()];
+        Self { directory, tables, assets, sources, made, textures: Vec::new(), warnings: Vec::new() }
+    }
+
+    /// The textures, those that nobody asked for with them, so that a missing file is told.
+    pub(super) fn finish(mut self) -> (Vec<Texture>, Vec<Warning>) {
+        for index in 0..self.tables.len() {
+            if self.made[index] == [None; 2] {
+                self.get(index, TextureUse::Color);
+            }
+        }
+        (self.textures, self.warnings)
+    }
+
+    fn get(&mut self, index: usize, used_for: TextureUse) -> TextureId {
+        let table = &self.tables[index];
+        let encoding = match (table.encoding(), used_for) {
+            (EncodingMode::Auto, TextureUse::Data) => EncodingMode::Linear,
+            (encoding, _) => encoding,
+        };
+        // Only an image that is read as the file says depends on its use.
+        let depends = table.image.is_some() && table.encoding() == EncodingMode::Auto;
+        let slot = usize::from(depends && used_for == TextureUse::Data);
+        if let Some(id) = self.made[index][slot] {
+            return id;
+        }
+        let id = TextureId(self.textures.len() as u32);
+        let pattern = self.pattern(table, encoding);
+        self.textures.push(Texture { name: table.name.to_string(), pattern, uv: table.uv_transform() });
+        self.made[index][slot] = Some(id);
+        id
+    }
+
+    fn pattern(&mut self, table: &TextureTable, encoding: EncodingMode) -> Pattern {
+        if let Some(checker) = &table.checker {
+            return checker.pattern();
+        }
+        let Some(file) = &table.image else { return Pattern::Missing };
+        let made_by = table.made_by.as_ref().map(|command| command.as_str());
+        match self.assets.image(file, encoding, made_by) {
+            Ok(image) => {
+                let [wrap_u, wrap_v] = table.wraps();
+                Pattern::Image { image, wrap_u, wrap_v, filtering: table.filtering() }
+            }
+            Err(fault) => {
+                self.warnings.push(self.sources.warning(&fault));
+                Pattern::Missing
+            }
+        }
+    }
+}
