@@ -153,7 +153,7 @@ fn values_beyond_the_type_are_counted() {
 fn contradictions_are_refused_with_the_name_of_the_file() {
     let good = frame();
     type Spoil = fn(&mut Frame);
-    let spoils: [(&str, Spoil); 8] = [
+    let spoils: [(&str, Spoil); 9] = [
         ("two channels R", |f| f.channels[1].name = "R".to_owned()),
         ("does not fill", |f| f.channels[2].values.truncate(3)),
         ("no channels", |f| f.channels.clear()),
@@ -162,6 +162,10 @@ fn contradictions_are_refused_with_the_name_of_the_file() {
         ("no part of a picture", |f| f.window.x0 = f.window.x1),
         ("reserved", |f| drop(f.meta.insert("dataWindow".to_owned(), Meta::Int(0)))),
         ("too many", |f| f.width = u32::MAX),
+        ("no name", |f| {
+            let value = Meta::Other { kind: "a\0b".to_owned(), bytes: Vec::new() };
+            f.meta.insert("heliostat/x".to_owned(), value);
+        }),
     ];
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.exr");

@@ -14,7 +14,7 @@ use exr::block::UncompressedBlock;
 use exr::block::chunk::{Chunk, CompressedBlock};
 use exr::block::reader::ChunksReader;
 use exr::math::Vec2;
-use exr::meta::attribute::ChannelList;
+use exr::meta::attribute::{ChannelDescription, ChannelList};
 use exr::meta::header::Header;
 use exr::meta::{BlockDescription, MetaData, compute_block_count};
 use half::f16;
@@ -131,9 +131,7 @@ fn read_pixels(
     const BATCH: usize = 64;
     let reader = exr::block::read(Cursor::new(bytes), false).map_err(explain)?;
     // The limits were checked on our own reading of the header.
-    let agrees =
-        |(h, p): (&Header, &PartLayout)| p.data.size() == [h.layer_size.0 as u64, h.layer_size.1 as u64];
-    if reader.headers().len() != parts.len() || !reader.headers().iter().zip(parts).all(agrees) {
+    if reader.headers().len() != parts.len() || !reader.headers().iter().zip(parts).all(agree) {
         return Err("has a contradictory header".into());
     }
     let full_resolution = Vec2(0, 0);
@@ -155,6 +153,14 @@ fn read_pixels(
             place(&block, &meta.headers[block.index.layer].channels);
         }
     }
+}
+
+/// Whether the decoder has read the same size and channels from a header as we have.
+fn agree((theirs, ours): (&Header, &PartLayout)) -> bool {
+    let name = |c: &ChannelDescription| String::from_utf8_lossy(c.name.bytes()).into_owned();
+    let names = theirs.channels.list.iter().map(name);
+    ours.data.size() == [theirs.layer_size.0 as u64, theirs.layer_size.1 as u64]
+        && names.eq(ours.channels.iter().map(|c| c.name.clone()))
 }
 
 fn explain(error: exr::error::Error) -> Refusal {

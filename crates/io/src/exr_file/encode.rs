@@ -49,8 +49,9 @@ fn check(frame: &Frame) -> Result<(), String> {
             return Err(format!("channel {} does not fill the window", channel.name));
         }
     }
-    frame.meta.keys().try_for_each(|name| {
+    frame.meta.iter().try_for_each(|(name, meta)| {
         check_name(name)?;
+        check_name(write(meta).0)?;
         if STRUCTURE.contains(&name.as_str()) { Err(format!("the entry {name} is reserved")) } else { Ok(()) }
     })
 }
@@ -72,8 +73,9 @@ fn with_entries(file: &[u8], meta: &BTreeMap<String, Meta>) -> Result<Vec<u8>, S
     let is_default = |a: &&Attribute<'_>| DEFAULTS.iter().any(|(name, _)| a.name == name.as_bytes());
     let mut attributes: Vec<_> = part.0.iter().filter(|a| !is_default(a)).copied().collect();
     attributes.push(Attribute { name: b"chromaticities", kind: b"chromaticities", value: &chromaticities });
-    let entry = |(name, (kind, value))| Attribute { name, kind: str::as_bytes(kind), value };
-    attributes.extend(written.iter().map(|(name, (kind, value))| entry((*name, (*kind, value.as_slice())))));
+    for (name, (kind, value)) in &written {
+        attributes.push(Attribute { name, kind: kind.as_bytes(), value });
+    }
     Ok(replace_header(file, old.length, serialize(old.version, attributes)))
 }
 
