@@ -129,14 +129,14 @@ pub fn sheared_corner(reach: f32) -> f32 {
     gamma(6) * reach
 }
 
-/// Bound, in lengths, of how far beside the true ray the rounded one may seem to run where it is compared with a plane,
-/// or a triangle, up to `distance` from its origin. `size` is the size of the triangle. Linear in both.
+/// Bound, in lengths, of how far beside the true ray the rounded one may seem to run where it is compared with a
+/// plane, or a triangle, up to `distance` from its origin. `size` is the size of the triangle. Linear in both.
 ///
 /// Distances and sizes are the largest along one axis; no other coordinates matter, because floats are given and
-/// subtracted exactly but for one rounding of the difference. The distance to a plane, `(plane - origin) * (1 / dir)`, has
-/// 3 roundings, its growth by this bound 2 more, and the distance of a hit is rounded once. The watertight triangle
-/// test sees its corners, up to `distance + size` away, displaced by [`sheared_corner`], and reports a distance
-/// within as much of the place where it saw the hit.
+/// subtracted exactly but for one rounding of the difference. The distance to a plane,
+/// `(plane - origin) * (1 / dir)`, has 3 roundings, its growth by this bound 2 more, and the distance of a hit is
+/// rounded once. The watertight triangle test sees its corners, up to `distance + size` away, displaced by
+/// [`sheared_corner`], and reports a distance within as much of the place where it saw the hit.
 ///
 /// # Source
 /// Higham, "Accuracy and Stability of Numerical Algorithms", 2nd edition, section 3.1, applied to the terms above.

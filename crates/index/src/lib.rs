@@ -35,9 +35,9 @@
 //!
 //! # What holds
 //!
-//! - **Nothing is lost.** A cell ends a search, but never rejects a hit for lying an ulp outside; distances to planes
-//!   are grown by the rounding error of a ray ([`heliostat_geometry::error_bound::cell_padding`]), so a ray along a
-//!   split plane sees both sides.
+//! - **Nothing is lost.** A cell ends a search, but never rejects a hit for lying an ulp outside; distances to
+//!   planes are grown by the rounding error of a ray ([`heliostat_geometry::error_bound::cell_padding`]), so a
+//!   ray along a split plane sees both sides.
 //! - **Ties go to the lower primitive id**, in every structure: the answer does not depend on the tree.
 //! - **Building ends.** Depth, references and time are bounded for any input; see [`BuildParams`].
 //!

@@ -13,13 +13,17 @@ pub trait Primitives {
         self.len() == 0
     }
 
-    /// A box that holds primitive `i` whole.
+    /// A box that holds primitive `i` whole: every point at which the caller's closure may find it.
+    ///
+    /// Rounding in proportion to the way of the ray and to the size of the box is allowed for by the tree
+    /// ([`heliostat_geometry::error_bound::cell_padding`]); a closure that rounds more must say so by a larger box.
     ///
     /// Sides may be infinite: such a primitive stays outside the tree, and every query tests it. An empty box or a
     /// NaN is an error of the build.
     fn bounds(&self, i: u32) -> Aabb;
 
-    /// A box that holds the part of primitive `i` inside `cell`, no larger than `cell`; empty when they do not meet.
+    /// A box that holds the part of primitive `i` inside `cell`, no larger than `cell`; empty when they do not
+    /// meet.
     ///
     /// The tighter it is, the fewer cells name a long or slanted primitive.
     fn clipped_bounds(&self, i: u32, cell: Aabb) -> Aabb {

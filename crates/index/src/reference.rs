@@ -1,9 +1,9 @@
 //! The witness: the BVH of the `obvhs` crate behind the same queries, asking the same closure.
 //!
 //! It was written by others on another principle, so an error shared with our tree is unlikely. It is no truth:
-//! its slab test has no margin, and it takes the inverse of a direction no larger than 1 / `f32::EPSILON`, so it misses
-//! small far boxes on rays along an axis. Boxes are therefore handed to it grown by the padding of a ray that starts
-//! within some ten extents of the scene. Hits at negative distances it does not find.
+//! its slab test has no margin, and it takes the inverse of a direction no larger than 1 / `f32::EPSILON`, so
+//! it misses small far boxes on rays along an axis. Boxes are therefore handed to it grown by the padding of a
+//! ray that starts within some ten extents of the scene. Hits at negative distances it does not find.
 
 use crate::bsp::BuildError;
 use crate::bsp::build::gather;
@@ -63,7 +63,8 @@ impl ReferenceBvh {
         Ok(Self { bvh, ids: refs.iter().map(|r| r.primitive).collect(), unbounded })
     }
 
-    /// Hands candidates to `test`, which answers up to which distance hits still matter; minus infinity ends the visit.
+    /// Hands candidates to `test`, which answers up to which distance hits still matter; minus infinity ends
+    /// the visit.
     fn visit(&self, ray: &Ray, mut test: impl FnMut(u32) -> f32) {
         // A unit direction, because the limits of the inverse there are absolute.
         let length = ray.dir.as_dvec3().length();

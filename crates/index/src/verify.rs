@@ -1,7 +1,7 @@
 //! Agreement of several indices over one mesh, ray by ray, judged by brute force.
 //!
-//! Ray number `i` of a seed is always the same ray, so that a disagreement is replayed by its number, and ranges of
-//! numbers can be traced on any number of threads.
+//! Ray number `i` of a seed is always the same ray, so that a disagreement is replayed by its number, and
+//! ranges of numbers can be traced on any number of threads.
 
 use crate::bsp::{BuildError, BuildParams};
 use crate::mesh_tree::{MeshHit, MeshTree, brute_force};
@@ -35,8 +35,8 @@ pub struct Agreement {
     pub rays: u64,
     /// Rays that hit the mesh, by brute force.
     pub hits: u64,
-    /// Every ray and index that differs: in whether there is a hit, in the triangle, in any bit of the distance, or when
-    /// its any-hit query contradicts.
+    /// Every ray and index that differs: in whether there is a hit, in the triangle, in any bit of the
+    /// distance, or when its any-hit query contradicts.
     pub disagreements: Vec<Disagreement>,
 }
 
@@ -124,8 +124,8 @@ impl<'m> Verifier<'m> {
         self.witness.any_hit(ray, |i, ray| intersect(&sheared, ray.range, self.mesh.corners(i)).is_some())
     }
 
-    /// The ray of that number: in turn one through the bounds from outside, one along an axis, one at a vertex, one at
-    /// a point of an edge, and one from inside the bounds.
+    /// The ray of that number: in turn one through the bounds from outside, one along an axis, one at a vertex,
+    /// one at a point of an edge, and one from inside the bounds.
     pub fn ray(&self, number: u64, seed: u64) -> Ray {
         let mut random = Random::new(number, seed);
         if self.mesh.triangles.is_empty() {

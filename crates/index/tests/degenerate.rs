@@ -209,8 +209,8 @@ fn one_huge_triangle_does_not_blur_the_others() {
         cost.tests
     };
     let (few, more) = (tests(&alone), tests(&with_floor));
-    // The error of the floor's own corners reaches the sheet: each cell knows it, and so it is tested now and then. Blurred
-    // cells would cost thousands of tests for each ray.
+    // The error of the floor's own corners reaches the sheet: each cell knows it, and so it is tested now and
+    // then. Blurred cells would cost thousands of tests for each ray.
     assert!(more < 5 * few, "{more} tests with the floor, {few} without");
 }
 

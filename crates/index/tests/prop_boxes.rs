@@ -16,7 +16,8 @@ fn config() -> ProptestConfig {
     ProptestConfig { failure_persistence: None, ..ProptestConfig::default() }
 }
 
-/// Where the ray enters a box, or leaves it when it starts inside; solved in `f64`, exact for boxes without size, too.
+/// Where the ray enters a box, or leaves it when it starts inside; solved in `f64`, exact for boxes without
+/// size, too.
 fn enter(bounds: Aabb, ray: &Ray) -> Option<(f32, bool)> {
     let (origin, dir) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
     let (low, high) = (bounds.min.as_dvec3() - origin, bounds.max.as_dvec3() - origin);

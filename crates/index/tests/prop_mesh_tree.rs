@@ -89,8 +89,8 @@ proptest! {
         }
     }
 
-    // A range that ends at the nearest hit keeps it; one that ends just before loses it; one that begins behind it gives
-    // the next.
+    // A range that ends at the nearest hit keeps it; one that ends just before loses it; one that begins behind
+    // it gives the next.
     #[test]
     fn distance_grows_as_the_range_shrinks((mesh, seeds) in scene()) {
         let tree = MeshTree::build(&mesh, &BuildParams::SAH).unwrap();

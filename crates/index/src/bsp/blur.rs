@@ -1,8 +1,8 @@
 //! How far beside its true place a primitive may be met, by rounding.
 //!
-//! The watertight triangle test displaces corners in proportion to their distance from the ray's origin. As far as
-//! that distance is the way of the ray, the walk allows for it; what is left is the size of the primitive. The walk
-//! allows for *usual* sizes everywhere; primitives beyond are grown instead.
+//! The watertight triangle test displaces corners in proportion to their distance from the ray's origin. As far
+//! as that distance is the way of the ray, the walk allows for it; what is left is the size of the primitive.
+//! The walk allows for *usual* sizes everywhere; primitives beyond are grown instead.
 
 use super::split::Reference;
 use glam::Vec3;

@@ -1,7 +1,8 @@
 //! The builder: from primitives to nodes, depth first, without recursion.
 //!
-//! All references of unfinished cells lie in one arena. A cell that is cut keeps one side in place and appends the
-//! other; the side on top is finished first and then dropped. So memory is bounded by the references alive at once.
+//! All references of unfinished cells lie in one arena. A cell that is cut keeps one side in place and appends
+//! the other; the side on top is finished first and then dropped. So memory is bounded by the references alive
+//! at once.
 
 use super::BspTree;
 use super::blur::{Blur, grow};

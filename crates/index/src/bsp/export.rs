@@ -10,22 +10,22 @@ use std::io::{self, Write};
 pub enum ExportWhat {
     /// The cells of all leaves. They tile the root.
     Leaves,
-    /// The partition as it is so many levels below the root: the cells of that depth, and the leaves above it. They
-    /// tile the root, too.
+    /// The partition as it is so many levels below the root: the cells of that depth, and the leaves above it.
+    /// They tile the root, too.
     Depth(u32),
     /// The cells of all nodes, nested.
     All,
 }
 
-/// The faces of a box over the corners of [`Aabb::corners`] (x in bit 0, y in bit 1, z in bit 2), counter-clockwise
-/// seen from outside.
+/// The faces of a box over the corners of [`Aabb::corners`] (x in bit 0, y in bit 1, z in bit 2),
+/// counter-clockwise seen from outside.
 const FACES: [[usize; 4]; 6] =
     [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
 
 /// Writes cells of the tree as boxes of eight vertices and six quads.
 ///
-/// One group `depth_NN` for each depth; in it one object for each cell, `leaf_N` with the number of references, or `node_N`,
-/// where `N` counts the exported cells.
+/// One group `depth_NN` for each depth; in it one object for each cell, `leaf_N` with the number of references,
+/// or `node_N`, where `N` counts the exported cells.
 ///
 /// # Errors
 /// Those of the writer.

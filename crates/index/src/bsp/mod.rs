@@ -1,8 +1,8 @@
 //! The BSP tree: axis-aligned planes cut the box around all primitives into disjoint cells.
 //!
-//! A node is a plane with two children, or a leaf with a run of references to primitives. The cells of the leaves
-//! tile the box of the root exactly; a primitive is named by every leaf whose cell it meets. Cells are not stored: they
-//! follow from the planes on the way down.
+//! A node is a plane with two children, or a leaf with a run of references to primitives. The cells of the
+//! leaves tile the box of the root exactly; a primitive is named by every leaf whose cell it meets. Cells are
+//! not stored: they follow from the planes on the way down.
 //!
 //! # Reading order
 //!

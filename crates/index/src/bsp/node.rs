@@ -8,7 +8,8 @@ pub(crate) const MAX_TAG: usize = (1 << 30) - 1;
 pub(crate) struct Node {
     /// Bits of the plane's position, or the index of the first reference.
     payload: u32,
-    /// Low two bits: the axis, or 3 for a leaf. Above them: the index of the left child, or the number of references.
+    /// Low two bits: the axis, or 3 for a leaf. Above them: the index of the left child, or the number of
+    /// references.
     tag: u32,
 }
 

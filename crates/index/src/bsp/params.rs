@@ -20,8 +20,8 @@ pub enum SplitRule {
 /// The work that the surface area heuristic counts, in any unit.
 ///
 /// # Source
-/// Goldsmith and Salmon, "Automatic Creation of Object Hierarchies for Ray Tracing", IEEE CG&A 1987; the bonus: Hurley et
-/// al., "Fast ray tracing for modern general purpose CPU", 2002.
+/// Goldsmith and Salmon, "Automatic Creation of Object Hierarchies for Ray Tracing", IEEE CG&A 1987; the bonus:
+/// Hurley et al., "Fast ray tracing for modern general purpose CPU", 2002.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SahCosts {
     /// One step from a node to a child. Positive.

@@ -1,11 +1,11 @@
 //! The plane that the surface area heuristic likes best.
 //!
-//! Large cells are sampled at the borders of bins; small ones are swept exactly, at the ends of all boxes. Costs are
-//! in `f64`; areas are those of the cells, because the walk meets cells, not boxes.
+//! Large cells are sampled at the borders of bins; small ones are swept exactly, at the ends of all boxes.
+//! Costs are in `f64`; areas are those of the cells, because the walk meets cells, not boxes.
 //!
 //! # Source
-//! Wald and Havran, "On building fast kd-trees for ray tracing, and on doing that in O(N log N)", 2006 (sweep, flat
-//! boxes); Shevtsov, Soupikov, Kapustin, "Highly parallel fast kd-tree construction", 2007 (bins).
+//! Wald and Havran, "On building fast kd-trees for ray tracing, and on doing that in O(N log N)", 2006 (sweep,
+//! flat boxes); Shevtsov, Soupikov, Kapustin, "Highly parallel fast kd-tree construction", 2007 (bins).
 
 use super::params::SahCosts;
 use super::split::{Plane, Reference};

@@ -2,17 +2,17 @@
 //!
 //! The two rules of the classic BSP walk, in the form that loses nothing:
 //!
-//! - *The cell of a leaf ends the search.* No cell is entered once the nearest hit lies before its entry. But a hit is
-//!   never rejected for lying outside the cell it was found in: a triangle reaches beyond it, and a rounded distance may
-//!   fall an ulp to the wrong side.
-//! - *When a ray enters both children at the same distance, both are searched* and the nearer hit wins: the distance to a
-//!   plane is an interval, grown by the rounding of everything that leads to it, and a child is left out only when
-//!   the ray's part of the cell lies wholly on the other side of that interval.
+//! - *The cell of a leaf ends the search.* No cell is entered once the nearest hit lies before its entry. But a
+//!   hit is never rejected for lying outside the cell it was found in: a triangle reaches beyond it, and a
+//!   rounded distance may fall an ulp to the wrong side.
+//! - *When a ray enters both children at the same distance, both are searched* and the nearer hit wins: the
+//!   distance to a plane is an interval, grown by the rounding of everything that leads to it, and a child is
+//!   left out only when the ray's part of the cell lies wholly on the other side of that interval.
 //!
-//! How wide the interval must be depends on how far the ray has come, and on the size of what it may meet there. The
-//! first is known on the way; for the second the tree has a constant, `slack`, and the few primitives that are larger than
-//! it allows for are known to every cell within the error of their own size: so one huge triangle does not blur
-//! the cells of all small ones.
+//! How wide the interval must be depends on how far the ray has come, and on the size of what it may meet
+//! there. The first is known on the way; for the second the tree has a constant, `slack`, and the few
+//! primitives that are larger than it allows for are known to every cell within the error of their own size: so
+//! one huge triangle does not blur the cells of all small ones.
 //!
 //! The near child is chosen by the sign bit of the direction, never by comparing the origin with the plane.
 //!
@@ -83,8 +83,8 @@ impl RayAxis {
         (plane - self.origin) * self.inverse
     }
 
-    /// Distances between which the ray passes `plane`, as far as distances up to `reach` matter. NaN ends mean that
-    /// nothing is known.
+    /// Distances between which the ray passes `plane`, as far as distances up to `reach` matter. NaN ends mean
+    /// that nothing is known.
     #[inline]
     fn crossing(self, plane: f32, reach: f32) -> Interval {
         let t = self.distance(plane);
@@ -117,7 +117,8 @@ impl RayAxes {
 
     /// The part of `range` inside `bounds`; empty when there is none. A NaN distance cuts off nothing.
     fn clip(&mut self, bounds: Aabb, range: Interval) -> Interval {
-        // Along its main axis the ray leaves the box for good: what may be met lies before, and rounding counts up to there.
+        // Along its main axis the ray leaves the box for good: what may be met lies before, and rounding counts
+        // up to there.
         let main = self.main;
         let far = if self.axes[main].near == 0 { bounds.max[main] } else { bounds.min[main] };
         let reach = self.axes[main].distance(far).min(range.max).max(0.0);
@@ -129,7 +130,8 @@ impl RayAxes {
             part = Interval { min: part.min.max(enter), max: part.max.min(leave) };
         }
 
-        // The walk allows for rounding up to the end of the part at hand. Where a ray looks backward, its start may be farther.
+        // The walk allows for rounding up to the end of the part at hand. Where a ray looks backward, its start
+        // may be farther.
         let backward = (-part.min).max(0.0);
         for axis in &mut self.axes {
             axis.padding += axis.growth * backward;
@@ -147,8 +149,8 @@ struct Pending {
 }
 
 impl BspTree {
-    /// Walks the leaves that the ray meets, front to back. `search` is given the references of a leaf and answers up
-    /// to which distance hits still matter; below the next entry, the walk ends.
+    /// Walks the leaves that the ray meets, front to back. `search` is given the references of a leaf and
+    /// answers up to which distance hits still matter; below the next entry, the walk ends.
     #[inline]
     pub(crate) fn walk(
         &self,

@@ -199,10 +199,11 @@ impl BspTree {
         Ok(())
     }
 
-    /// The part of a cell in which a primitive must be known to it: all but a border as wide as the error of clipping.
+    /// The part of a cell in which a primitive must be known to it: all but a border as wide as the error of
+    /// clipping.
     ///
-    /// A primitive that only touches a plane may belong to the other side; one that lies flat in a plane belongs to the side
-    /// below, which at the lower border of the root is the root's own.
+    /// A primitive that only touches a plane may belong to the other side; one that lies flat in a plane
+    /// belongs to the side below, which at the lower border of the root is the root's own.
     fn interior(&self, cell: Aabb, bounds: Aabb) -> Aabb {
         let margin = self.blur.clipping;
         let low = |axis: usize| {

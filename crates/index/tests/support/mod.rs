@@ -4,8 +4,8 @@ use glam::Vec3;
 use heliostat_geometry::TriMesh;
 use std::path::{Path, PathBuf};
 
-/// Every OBJ file of the assets folder (`HELIOSTAT_ASSETS`, or `../shared/assets` beside the workspace), smallest first.
-/// Says so and gives none when there is no such folder.
+/// Every OBJ file of the assets folder (`HELIOSTAT_ASSETS`, or `../shared/assets` beside the workspace),
+/// smallest first. Says so and gives none when there is no such folder.
 pub(crate) fn obj_files() -> Vec<PathBuf> {
     let root = std::env::var_os("HELIOSTAT_ASSETS")
         .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/assets"), PathBuf::from);
