@@ -3,6 +3,8 @@
 //! Pictures go to `out/gallery/` in full size; `scenes/thumbs/` gets the small ones that are committed. Animations become a
 //! strip of four frames, and with ffmpeg on the path a video beside the pictures.
 
+mod reference;
+
 use crate::Outcome;
 use crate::heliostat::{Heliostat, scenes, stem};
 use crate::process::{root, run as execute, say};
@@ -38,6 +40,7 @@ pub(crate) fn run(only: &str, videos: bool) -> Outcome {
         write_entry(&mut page, &scene, &pictures)?;
     }
     page.push_str(TAIL);
+    page.push_str(&reference::markdown(&heliostat)?);
     std::fs::write(root().join("scenes/README.md"), page).map_err(|e| format!("scenes/README.md: {e}"))
 }
 
