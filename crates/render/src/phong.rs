@@ -32,7 +32,7 @@ impl PhongPoint {
 
 /// `max(x, 0)^n` for `x` up to 1, without the work where the result is too small for an `f32`.
 #[inline]
-fn power(x: f32, n: f32) -> f32 {
+pub(crate) fn power(x: f32, n: f32) -> f32 {
     // ln x <= x - 1, so x^n <= exp(-n (1 - x)).
     if x <= 0.0 || n * (1.0 - x) > UNDERFLOW { 0.0 } else { x.min(1.0).powf(n) }
 }
@@ -64,7 +64,13 @@ pub(crate) fn refract(dir: Vec3, n: Vec3, eta: f32) -> Option<Refraction> {
     Some(Refraction { dir: (eta * dir + (eta * cos_in - cos) * n).normalize(), cos })
 }
 
-/// The share of unpolarised light that a dielectric surface reflects.
+/// The share of unpolarised light that a dielectric surface reflects, by the cosine of the angle at which it arrives.
+pub(crate) fn fresnel_at(cos_in: f32, eta: f32) -> f32 {
+    let sin2_out = eta * eta * (1.0 - cos_in * cos_in).max(0.0);
+    if sin2_out < 1.0 { fresnel(cos_in, (1.0 - sin2_out).sqrt(), eta) } else { 1.0 }
+}
+
+/// The share of unpolarised light that a dielectric surface reflects, by both cosines.
 ///
 /// # Source
 /// Fresnel's equations, as in Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th edition, section 9.3.5; `eta` is the

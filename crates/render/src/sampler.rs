@@ -99,6 +99,22 @@ pub struct Points {
     left: u32,
 }
 
+impl Points {
+    /// The next points, as many as `lanes` holds, and how many of them still belong to the set.
+    ///
+    /// All lanes are worked out alike, so that the compiler can do several at once.
+    #[inline]
+    pub fn next_lanes<const N: usize>(&mut self, lanes: &mut [Vec2; N]) -> usize {
+        for (i, lane) in (0_u32..).zip(lanes.iter_mut()) {
+            *lane = self.scramble.point(self.next.wrapping_add(i));
+        }
+        let count = N.min(self.left as usize);
+        self.next = self.next.wrapping_add(count as u32);
+        self.left -= count as u32;
+        count
+    }
+}
+
 impl Iterator for Points {
     type Item = Vec2;
 

@@ -98,6 +98,20 @@ pub trait Geometry {
     fn hit(&self, ray: &LocalRay) -> Option<Root>;
     /// The surface at a root that [`Geometry::hit`] gave for the same ray.
     fn surface(&self, ray: &LocalRay, root: Root) -> LocalHit;
+    /// Every root in the range of the ray, nearest first.
+    fn each_root(&self, ray: &LocalRay, visit: &mut dyn FnMut(Root)) {
+        let mut rest = *ray;
+        while let Some(root) = self.hit(&rest) {
+            visit(root);
+            rest.range.min = (root.t as f32).next_up();
+        }
+    }
+
+    /// The geometric normal at a root that [`Geometry::hit`] gave for the same ray, of any length but zero; cheaper than
+    /// the whole surface where a shape says so.
+    fn normal(&self, ray: &LocalRay, root: Root) -> DVec3 {
+        self.surface(ray, root).ng
+    }
     /// The box around the shape; infinite for the infinite plane.
     fn bounds(&self) -> Aabb;
     /// Surface area; infinite for the infinite plane.

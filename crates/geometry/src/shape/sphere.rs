@@ -29,11 +29,10 @@ impl Sphere {
             pdf: 1.0 / self.area(),
         }
     }
-}
 
-impl Geometry for Sphere {
+    /// Where the line of the ray enters and leaves, in order; `None` for most lines that miss, and rays that move away.
     #[inline]
-    fn hit(&self, ray: &LocalRay) -> Option<Root> {
+    fn roots(&self, ray: &LocalRay) -> Option<[f64; 2]> {
         let r_squared = f64::from(self.radius) * f64::from(self.radius);
         // Outside and moving away: the common miss costs two products.
         let b = -ray.origin.dot(ray.dir);
@@ -48,8 +47,19 @@ impl Geometry for Sphere {
             return None;
         }
         let q = b + discriminant.sqrt().copysign(b);
-        let (t0, t1) = if b > 0.0 { (c / q, q / a) } else { (q / a, c / q) };
-        [t0, t1].into_iter().find(|&t| ray.accepts(t)).map(|t| Root { t, part: 0 })
+        Some(if b > 0.0 { [c / q, q / a] } else { [q / a, c / q] })
+    }
+}
+
+impl Geometry for Sphere {
+    #[inline]
+    fn hit(&self, ray: &LocalRay) -> Option<Root> {
+        self.roots(ray)?.into_iter().find(|&t| ray.accepts(t)).map(|t| Root { t, part: 0 })
+    }
+
+    fn each_root(&self, ray: &LocalRay, visit: &mut dyn FnMut(Root)) {
+        let roots = self.roots(ray).into_iter().flatten();
+        roots.filter(|&t| ray.accepts(t)).for_each(|t| visit(Root { t, part: 0 }));
     }
 
     fn surface(&self, ray: &LocalRay, root: Root) -> LocalHit {
@@ -66,6 +76,11 @@ impl Geometry for Sphere {
             dpdu: radial.dpdu(r * ring),
             dpdv: (PI * r * radial.point(-n.y, ring)).as_vec3(),
         }
+    }
+
+    #[inline]
+    fn normal(&self, ray: &LocalRay, root: Root) -> DVec3 {
+        ray.at(root.t)
     }
 
     fn bounds(&self) -> Aabb {

@@ -1,5 +1,7 @@
 //! The light of all sources at one point of a surface, with its shadows.
 
+use super::area::FlatLamp;
+use super::bundle::Bundle;
 use super::{PreparedLight, Target};
 use crate::counters::RayCounters;
 use crate::material_eval::PhongPoint;
@@ -70,11 +72,37 @@ fn from_samples(
         Some(hull) => world.blockers(&point.start, point.own, hull),
         None => Candidates::All,
     };
-    let mut sum = Rgb::ZERO;
-    for u in samples {
-        sum += from_sample(world, light, point, u, blockers, counters);
-    }
+    let sum: Rgb = match light.flat_lamp() {
+        Some(lamp) => from_flat_lamp(world, &lamp, point, samples, blockers, counters),
+        None => samples.map(|u| from_sample(world, light, point, u, blockers, counters)).sum(),
+    };
     sum / light.samples as f32
+}
+
+/// The sum over samples of a flat lamp, by bundles of them.
+fn from_flat_lamp(
+    world: &World<'_>,
+    lamp: &FlatLamp<'_>,
+    point: &LitPoint<'_>,
+    mut samples: Points,
+    blockers: Candidates,
+    counters: &mut RayCounters,
+) -> Rgb {
+    let mut sum = Rgb::ZERO;
+    while samples.len() > 0 {
+        let bundle = Bundle::draw(lamp, point, &mut samples);
+        if blockers.are_none() {
+            sum += bundle.whole_answer(point);
+            continue;
+        }
+        // Trace a shadow ray only where there is something to lose.
+        for lane in (0..bundle.count).filter(|&lane| bundle.is_lit(lane)) {
+            counters.shadow += 1;
+            let ray = point.departure.spawn_to(bundle.targets[lane]);
+            sum += bundle.answer(lane, point) * world.transmittance_past(&ray, point.time, blockers);
+        }
+    }
+    sum * lamp.radiance
 }
 
 /// What one sample of a light adds.

@@ -8,11 +8,11 @@ use heliostat_geometry::{Shape, Transform};
 /// A rectangle or a full disk in world space; a map may have stretched or sheared it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct WorldFlat {
-    centre: DVec3,
+    centre: Vec3,
     /// Image of the local x axis, half of the size long.
-    x: DVec3,
+    x: Vec3,
     /// Image of the local z axis, half of the size long.
-    z: DVec3,
+    z: Vec3,
     is_disk: bool,
     /// Unit normal.
     pub(super) normal: Vec3,
@@ -32,9 +32,9 @@ impl WorldFlat {
         let local = shape.geometry().area();
         let area = (local * transform.area_stretch(DVec3::Y)) as f32;
         (area > 0.0 && area.is_finite()).then(|| Self {
-            centre: matrix.translation,
-            x,
-            z,
+            centre: matrix.translation.as_vec3(),
+            x: x.as_vec3(),
+            z: z.as_vec3(),
             is_disk,
             normal: transform.normal(Vec3::Y),
             area,
@@ -45,6 +45,6 @@ impl WorldFlat {
     #[inline]
     pub(super) fn point(&self, u: Vec2) -> Vec3 {
         let local = if self.is_disk { square_to_disk(u) } else { 2.0 * u - Vec2::ONE };
-        (self.centre + f64::from(local.x) * self.x + f64::from(local.y) * self.z).as_vec3()
+        self.centre + local.x * self.x + local.y * self.z
     }
 }

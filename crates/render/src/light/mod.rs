@@ -4,6 +4,7 @@
 //! stands in between is asked by [`direct`].
 
 mod area;
+mod bundle;
 mod delta;
 pub(crate) mod direct;
 mod emitter;
@@ -11,7 +12,7 @@ mod flat;
 mod sphere;
 
 use crate::world::Hull;
-use area::AreaLight;
+use area::{AreaLight, FlatLamp};
 use delta::{DirectionalLight, PointLight};
 use glam::{Vec2, Vec3};
 use heliostat_geometry::{Aabb, SurfacePoint};
@@ -82,6 +83,15 @@ impl<'s> PreparedLight<'s> {
             Source::Point(_) => None,
             Source::Directional(light) => light.bounds(p, scene).map(Hull::of_box),
             Source::Area(_) => self.surface,
+        }
+    }
+
+    /// The lamp, where it is a flat one that stands still.
+    #[inline]
+    fn flat_lamp(&self) -> Option<FlatLamp<'_>> {
+        match &self.source {
+            Source::Area(light) => light.flat_lamp(),
+            Source::Point(_) | Source::Directional(_) => None,
         }
     }
 

@@ -6,7 +6,7 @@ use super::shaft::Shaft;
 use super::solid::{Solid, SurfaceAt};
 use super::{Shadow, World};
 use crate::material_eval::MaterialEval;
-use crate::phong::{fresnel, refract};
+use crate::phong::fresnel_at;
 use crate::texture_eval::TexturePoint;
 use glam::Vec3;
 use heliostat_geometry::{Ray, SurfacePoint};
@@ -84,22 +84,44 @@ struct Filter<'a> {
     glass: bool,
 }
 
-impl Filter<'_> {
-    /// The share of light that passes all surfaces of the thing.
+/// What is left of the light after some surfaces.
+struct Passed {
+    share: Rgb,
+    /// Absorption times way.
+    absorbed: Vec3,
+    /// Absorption that goes on at the end of the ray.
+    open: Vec3,
+}
+
+impl Passed {
+    /// Goes through a surface at `t` that lets a share through, with an absorption behind it.
     ///
     /// The way inside is the sum of `t` where the ray leaves, minus those where it enters: it needs no order.
+    fn through(&mut self, t: f32, leaves: bool, (share, absorption): (Rgb, Rgb)) {
+        let sign = if leaves { 1.0 } else { -1.0 };
+        self.share *= share;
+        self.absorbed += sign * t * absorption;
+        self.open -= sign * absorption;
+    }
+}
+
+impl Filter<'_> {
+    /// The share of light that passes all surfaces of the thing.
     fn share(&self, solid: &Solid<'_>, time: f32) -> Rgb {
-        let mut share = Rgb::ONE;
-        // Absorption times way, and absorption that still goes on at the end of the ray.
-        let (mut absorbed, mut open) = (Vec3::ZERO, Vec3::ZERO);
-        solid.each_surface(self.ray, time, |surface| {
-            let (passing, absorption) = self.at_surface(&surface);
-            share *= passing;
-            let leaves = self.ray.dir.dot(surface.hit.at.ng) > 0.0;
-            let sign = if leaves { 1.0 } else { -1.0 };
-            absorbed += sign * surface.hit.t * absorption;
-            open -= sign * absorption;
+        let mut passed = Passed { share: Rgb::ONE, absorbed: Vec3::ZERO, open: Vec3::ZERO };
+        let leaves = |n: Vec3| self.ray.dir.dot(n) > 0.0;
+        let is_done = self.plain().is_some_and(|(opacity, transparency, phong)| {
+            solid.each_crossing(self.ray, time, |t, n| {
+                passed.through(t, leaves(n), self.passing(opacity, transparency, phong, n));
+            })
         });
+        if !is_done {
+            solid.each_surface(self.ray, time, |surface| {
+                let at_surface = self.at_surface(&surface);
+                passed.through(surface.hit.t, leaves(surface.hit.at.ng), at_surface);
+            });
+        }
+        let Passed { share, mut absorbed, open } = passed;
         if self.ray.range.max.is_finite() {
             absorbed += self.ray.range.max * open;
         }
@@ -107,28 +129,38 @@ impl Filter<'_> {
         if depth == Vec3::ZERO { share } else { share * (-depth).exp() }
     }
 
+    /// Opacity and transparency where they are the same everywhere on the thing.
+    fn plain(&self) -> Option<(f32, Rgb, &Phong)> {
+        let material: &Material = &self.scene.materials[self.object.material(0).index()];
+        let Surface::Phong(phong) = &material.surface;
+        let is_plain = material.opacity.texture.is_none() && phong.transparency.texture.is_none();
+        is_plain.then_some((material.opacity.factor.clamp(0.0, 1.0), phong.transparency.factor, phong))
+    }
+
     /// The share that passes one surface, and the absorption behind it.
     fn at_surface(&self, surface: &SurfaceAt) -> (Rgb, Rgb) {
         let material: &Material = &self.scene.materials[self.object.material(surface.slot).index()];
         let at = TexturePoint { uv: surface.hit.uv, local: surface.local };
         let eval = MaterialEval { textures: &self.scene.textures, at };
-        let opacity = eval.opacity(material);
         let Surface::Phong(phong) = &material.surface;
+        self.passing(eval.opacity(material), eval.color(&phong.transparency), phong, surface.hit.ns)
+    }
+
+    /// The share that passes a surface with unit normal `n`, and the absorption behind it.
+    fn passing(&self, opacity: f32, transparency: Rgb, phong: &Phong, n: Vec3) -> (Rgb, Rgb) {
         if !self.glass || phong.transparency.is_zero() {
             return (Rgb::splat(1.0 - opacity), Rgb::ZERO);
         }
-        let glass = eval.color(&phong.transparency) * (1.0 - self.reflected(phong, surface));
+        let glass = transparency * (1.0 - self.reflected(phong, n));
         (Rgb::splat(1.0 - opacity) + opacity * glass, phong.absorption)
     }
 
-    /// The share that the surface reflects, seen from outside.
-    fn reflected(&self, phong: &Phong, surface: &SurfaceAt) -> f32 {
+    /// The share that a surface with unit normal `n` reflects, seen from outside.
+    fn reflected(&self, phong: &Phong, n: Vec3) -> f32 {
         if phong.fresnel == FresnelMode::Off {
             return 0.0;
         }
-        let dir = self.ray.dir.normalize();
-        let n = if dir.dot(surface.hit.ns) < 0.0 { surface.hit.ns } else { -surface.hit.ns };
-        let eta = 1.0 / phong.ior;
-        refract(dir, n, eta).map_or(1.0, |refraction| fresnel(-dir.dot(n), refraction.cos, eta))
+        let cos = self.ray.dir.dot(n).abs() / self.ray.dir.length();
+        fresnel_at(cos, 1.0 / phong.ior)
     }
 }

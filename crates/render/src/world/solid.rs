@@ -160,6 +160,18 @@ impl<'s> Solid<'s> {
         }
     }
 
+    /// Visits every surface of a shape in the range of the ray: where, and its unit normal. `false` for a mesh.
+    pub(crate) fn each_crossing(&self, ray: &Ray, time: f32, mut visit: impl FnMut(f32, Vec3)) -> bool {
+        let Body::Shape(shape) = &self.body else { return false };
+        self.place.at(time, |transform| {
+            let (local, shape) = (transform.local_ray(ray), shape.geometry());
+            shape.each_root(&local, &mut |root| {
+                visit(root.t as f32, transform.normal(shape.normal(&local, root).as_vec3()));
+            });
+        });
+        true
+    }
+
     /// The surface at a meeting that came from the same ray and time.
     pub(crate) fn surface(&self, ray: &Ray, time: f32, meeting: Meeting) -> Option<SurfaceAt> {
         self.place.at(time, |transform| match (&self.body, meeting) {
