@@ -1,7 +1,7 @@
 //! Polygons of the file into one mesh per group, with the materials as slots.
 
 use super::face::{Corner, NONE};
-use super::parse::{GroupName, RawObj};
+use super::raw::{GroupName, RawObj};
 use super::text::SourceText;
 use super::triangulate::{Cut, Triangulator};
 use super::{ObjObject, Split};

@@ -3,7 +3,7 @@
 use super::files::ObjFiles;
 use super::material::{convert, neutral};
 use super::mtl;
-use super::parse::RawObj;
+use super::raw::RawObj;
 use super::text::SourceText;
 use super::textures::{Known, Textures};
 use crate::error::{LoadError, quote};

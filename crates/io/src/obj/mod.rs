@@ -6,7 +6,7 @@
 //!
 //! # Way of the data
 //!
-//! `text` (bytes to statements) -> `parse` and `face` (statements to arrays, checked) -> `libraries` with `mtl`, `map`,
+//! `text` (bytes to statements) -> `parse`, `face` and `number` (statements to the arrays of `raw`, checked) -> `libraries` with `mtl`, `map`,
 //! `material`, `textures` and `channel` (materials) -> `normals` (missing ones) -> `build` with `triangulate` (one mesh per
 //! group) -> [`ObjModel::append_to`].
 //!
@@ -35,6 +35,7 @@ mod mtl;
 mod normals;
 mod number;
 mod parse;
+mod raw;
 mod text;
 mod textures;
 mod triangulate;

@@ -121,7 +121,7 @@ impl Reader<'_> {
             "ns" | "ni" | "d" | "tr" | "illum" => self.number(&keyword, statement),
             _ if KNOWN.contains(&keyword.as_str()) => self.map(&keyword, statement),
             // Other spellings of the same maps.
-            "map_opacity" | "map_tr" => self.map("map_d", statement),
+            "map_opacity" => self.map("map_d", statement),
             "map_emissive" => self.map("map_ke", statement),
             "map_norm" | "map_kn" | "norm_map" => self.map("norm", statement),
             _ => {

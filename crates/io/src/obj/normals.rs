@@ -9,7 +9,7 @@
 //! Thürmer and Wüthrich, "Computing Vertex Normals from Polygonal Facets", JGT 1998 (weights).
 
 use super::face::NONE;
-use super::parse::RawObj;
+use super::raw::RawObj;
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 
@@ -97,25 +97,35 @@ fn weld(positions: &[Vec3]) -> Vec<u32> {
 fn spokes_by_vertex(facets: &Facets, raw: &RawObj) -> Vec<Spoke> {
     let welded = weld(&raw.positions);
     let mut spokes = Vec::with_capacity(raw.corners.len());
+    let mut runs = Vec::new();
     for (face, _) in facets.lacking.iter().enumerate().filter(|&(_, &lacks)| lacks) {
-        let range = raw.corners_of(face);
-        let ring = &raw.corners[range.clone()];
-        for (i, corner) in ring.iter().enumerate() {
-            let before = ring[(i + ring.len() - 1) % ring.len()].position;
-            let after = ring[(i + 1) % ring.len()].position;
-            let at = |position: u32| raw.positions[position as usize].as_dvec3();
-            let [a, b] = [before, after].map(|end| at(end) - at(corner.position));
-            spokes.push(Spoke {
-                vertex: welded[corner.position as usize],
-                corner: (range.start + i) as u32,
-                face: face as u32,
-                neighbours: [before, after].map(|end| welded[end as usize]),
-                angle: a.cross(b).length().atan2(a.dot(b)),
-            });
-        }
+        push_spokes(raw, &welded, face, &mut runs, &mut spokes);
     }
     spokes.sort_unstable_by_key(|spoke| (spoke.vertex, spoke.corner));
     spokes
+}
+
+/// The corners of one face. Corners in a row at one place, as quads have them at the pole of a ball, see past each other.
+fn push_spokes(raw: &RawObj, welded: &[u32], face: usize, runs: &mut Vec<u32>, spokes: &mut Vec<Spoke>) {
+    let range = raw.corners_of(face);
+    let vertices = || raw.corners[range.clone()].iter().map(|corner| welded[corner.position as usize]);
+    runs.clear();
+    runs.extend(vertices());
+    runs.dedup();
+    if runs.len() > 1 && runs.first() == runs.last() {
+        runs.pop();
+    }
+    let at = |vertex: u32| raw.positions[vertex as usize].as_dvec3();
+    let mut run = 0;
+    for (corner, vertex) in (range.start as u32..).zip(vertices()) {
+        if runs[run] != vertex {
+            run = (run + 1) % runs.len();
+        }
+        let neighbours = [runs[(run + runs.len() - 1) % runs.len()], runs[(run + 1) % runs.len()]];
+        let [a, b] = neighbours.map(|end| at(end) - at(vertex));
+        let angle = a.cross(b).length().atan2(a.dot(b));
+        spokes.push(Spoke { vertex, corner, face: face as u32, neighbours, angle });
+    }
 }
 
 /// The faces around one vertex as sets that share a normal. The buffers serve one vertex after another.
