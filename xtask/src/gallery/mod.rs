@@ -47,7 +47,7 @@ pub(crate) fn run(only: &str, videos: bool) -> Outcome {
 /// Renders the pictures of a scene, or only names them.
 fn pictures(heliostat: &Heliostat, scene: &str, render: bool, videos: bool) -> Result<Vec<Picture>, String> {
     let info = heliostat.info(scene)?;
-    if let (Some(first), Some(last)) = (info["frames"]["first"].as_i64(), info["frames"]["last"].as_i64())
+    if let (Some(first), Some(last)) = (info["frames"][0].as_i64(), info["frames"][1].as_i64())
         && last - first > 30
     {
         return Ok(vec![animation(heliostat, scene, [first, last], render, videos)?]);
