@@ -14,7 +14,7 @@ pub(crate) fn run(deep: bool) -> Outcome {
     if deep {
         say("deep: 20,000 cases per law and full ray counts, on the release build");
         let mut laws = cargo(&["test", "--release", "--workspace"]);
-        laws.env("PROPTEST_CASES", "20000").env("HELIOSTAT_DEEP", "1");
+        laws.env("PROPTEST_CASES", "20000").env("HELIOSTAT_DEEP", "100000");
         execute(laws)?;
     }
     execute(cargo(&["test", "--workspace"]))
