@@ -68,7 +68,8 @@ fn umbra_and_penumbra_lie_where_the_edges_of_the_lamp_say() {
         if x < -1.0 {
             assert_eq!(covered, 0.0, "umbra at {x}");
         } else if x > 1.0 {
-            assert_eq!(covered, whole, "light at {x}");
+            // Sums of 64 samples, in whatever order.
+            assert_close(covered, whole, 64.0 * f32::EPSILON);
         } else if x.abs() < 0.9 {
             assert!(0.0 < covered && covered < whole, "penumbra at {x}: {covered} of {whole}");
         }

@@ -105,13 +105,17 @@ impl Whitted {
         found: &mut Found,
         counters: &mut RayCounters,
     ) {
-        // Find what the ray meets first.
+        // Find what the ray meets first, and colour what comes through glass.
         let Some(seen) = world.seen_inside(&branch.passing, branch.inside, time, branch.from_camera) else {
             self.leave(world, &branch, found);
             return;
         };
         let surface = &seen.surface;
         let dir = branch.passing.ray.dir;
+        let way = surface.hit.t * dir.length();
+        if let Some(inside) = branch.inside {
+            branch.weight *= (-way * inside.absorption).exp();
+        }
         let (object, material) = match surface.owner {
             Owner::Object { index, material } => (index, material),
             Owner::Light(light) => {
@@ -122,10 +126,10 @@ impl Whitted {
             }
         };
 
-        // Colour what came through glass.
+        // A ray that leaves glass it was not known to be in: the camera stands in it, or one thing in another.
         let point = ShadingPoint::new(world, surface, material, dir, time);
-        if let Some(absorption) = branch.inside.map(|inside| inside.absorption).or(point.left_absorption()) {
-            branch.weight *= (-absorption * surface.hit.t * dir.length()).exp();
+        if let (None, Some(absorption)) = (branch.inside, point.left_absorption()) {
+            branch.weight *= (-way * absorption).exp();
         }
 
         // Let the ray go on where the surface is cut away.

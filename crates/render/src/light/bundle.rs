@@ -45,6 +45,9 @@ impl Bundle {
             bundle.specular[i] = share;
             highlights[i] = 2.0 * cos * point.ns.dot(point.view) - to_light.dot(point.view);
         }
+        if point.fades() {
+            bundle.fade(point);
+        }
         // What the surface does not answer is not lit, and needs no shadow ray.
         if point.phong.diffuse == Rgb::ZERO {
             bundle.diffuse = [0.0; LANES];
@@ -57,6 +60,16 @@ impl Bundle {
             }
         }
         bundle
+    }
+
+    /// Weakens the light where the point says so.
+    #[cold]
+    fn fade(&mut self, point: &LitPoint<'_>) {
+        for (i, target) in self.targets.iter().enumerate() {
+            let share = point.facing((target - point.start.p).normalize_or_zero());
+            self.diffuse[i] *= share;
+            self.specular[i] *= share;
+        }
     }
 
     /// Whether a lane has light to lose.

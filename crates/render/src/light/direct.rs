@@ -117,15 +117,13 @@ fn from_sample(
 ) -> Rgb {
     let Some(sample) = light.sample(point.start.p, u, point.time) else { return Rgb::ZERO };
 
-    // Light from behind the surface is not seen, whatever the shading normal says.
-    let above = point.smooth.dot(sample.to_light) > 0.0
-        && (point.lifted || point.start.ng.dot(sample.to_light) > 0.0);
-    if !above {
+    let share = point.facing(sample.to_light);
+    if share <= 0.0 {
         return Rgb::ZERO;
     }
 
     // Trace the shadow ray only where there is something to lose.
-    let answer = sample.arriving * point.phong.answer(point.ns, sample.to_light, point.view);
+    let answer = share * sample.arriving * point.phong.answer(point.ns, sample.to_light, point.view);
     if answer == Rgb::ZERO {
         return Rgb::ZERO;
     }
@@ -139,4 +137,29 @@ fn from_sample(
         Target::Surface(at) => point.start.spawn_to_surface(&at),
     };
     answer * world.transmittance_past(&ray, point.time, blockers)
+}
+
+impl LitPoint<'_> {
+    /// Whether light fades out towards the side of a facet: the smooth surface is another one, and lies below.
+    pub(super) fn fades(&self) -> bool {
+        !self.lifted && self.start.ng != self.smooth
+    }
+
+    /// The share of the light from a unit direction that the shape of the surface lets in: none from behind it, whatever the
+    /// shading normal says. It fades where [`LitPoint::fades`], so that facets do not show when they turn away.
+    ///
+    /// # Source
+    /// Chiang, Li, Burley, "Taming the Shadow Terminator", SIGGRAPH Talks 2019.
+    #[inline]
+    pub(super) fn facing(&self, to_light: Vec3) -> f32 {
+        let (cos, facet_cos) = (self.smooth.dot(to_light), self.start.ng.dot(to_light));
+        if cos <= 0.0 || (facet_cos <= 0.0 && !self.lifted) {
+            return 0.0;
+        }
+        if !self.fades() {
+            return 1.0;
+        }
+        let g = (facet_cos / (cos * self.start.ng.dot(self.smooth))).clamp(0.0, 1.0);
+        g * (1.0 + g * (1.0 - g))
+    }
 }
