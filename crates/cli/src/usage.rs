@@ -98,7 +98,7 @@ mod tests {
         let size = line(&["heliostat", "render", "a.toml", "--size", "640"]);
         assert_eq!(
             size,
-            "error: invalid value '640' for '--size <WxH>': write WIDTHxHEIGHT, as in 1920x1080, each from 1 to 65536"
+            "error: invalid value '640' for '--size <WxH>': write WIDTHxHEIGHT, as in 1920x1080, each from 1 to 65535"
         );
         let missing = line(&["heliostat", "render"]);
         assert!(missing.starts_with("error: the following required arguments were not provided: <SCENE>"));

@@ -17,7 +17,8 @@ Examples:
   heliostat render scene.toml --set object.ball.translate.1=2.5 --set material.glass.phong.ior=1.33
   heliostat render scene.toml --progress json --stats stats.json
 
-Ctrl-C stops at the next tile and saves the picture with the samples so far (exit code 130); a second one ends at once.";
+Ctrl-C stops at the next tile and saves the picture with the samples so far (exit code 130), a numbered frame under
+NAME.0007.partial.exr so that nobody takes it for whole; a second Ctrl-C ends at once.";
 
 /// Render a scene or a model into images
 #[derive(Debug, Args)]
@@ -65,7 +66,7 @@ pub(crate) struct OutputArgs {
     #[arg(long, value_enum, value_name = "NAME", default_value_t = Compression::Zip)]
     pub(crate) compression: Compression,
 
-    /// Leave out frames whose images are all there; they are always whole
+    /// Leave out frames whose images are all there; a finished image is always whole
     #[arg(long)]
     pub(crate) skip_existing: bool,
 }

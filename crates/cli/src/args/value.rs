@@ -3,9 +3,9 @@
 use heliostat_scene::settings::PixelRect;
 
 /// Pixels per side, at most: what EXR and PNG readers commonly accept.
-const LARGEST_SIDE: u32 = 65_536;
+const LARGEST_SIDE: u32 = 65_535;
 /// Frames of one run, at most: more is a slip of the keyboard.
-const MOST_FRAMES: u64 = 1_000_000;
+pub(crate) const MOST_FRAMES: u64 = 1_000_000;
 
 /// Width and height in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

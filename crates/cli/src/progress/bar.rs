@@ -6,7 +6,7 @@ use std::time::Duration;
 
 /// Steps of the bar: finer than any terminal is wide.
 const STEPS: u64 = 10_000;
-const TEMPLATE: &str = "{prefix:.cyan.bold} {bar:30.cyan/blue} {percent:>3}%  {msg}";
+const TEMPLATE: &str = "{prefix:.cyan.bold}{bar:30.cyan/blue} {percent:>3}%  {msg}";
 
 /// A bar with elapsed and remaining time, rays per second and memory.
 #[derive(Debug)]
@@ -24,7 +24,7 @@ impl Bar {
 
     pub(super) fn begin(&self, frame: i32, number: usize, frames: usize, activity: &str) {
         if frames > 1 {
-            self.0.set_prefix(format!("frame {frame} ({number}/{frames})"));
+            self.0.set_prefix(format!("frame {frame} ({number}/{frames}) "));
         }
         self.0.set_message(activity.to_owned());
         self.0.enable_steady_tick(Duration::from_millis(200));

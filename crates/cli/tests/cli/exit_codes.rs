@@ -89,3 +89,19 @@ fn colours_and_unicode_stay_in_terminals() {
         "{run:#?}"
     );
 }
+
+#[test]
+fn check_tells_what_nothing_uses_and_what_stays_black() {
+    let folder = Folder::new();
+    let unused = "\n[[material]]\nname = \"spare\"\n[material.phong]\ndiffuse = 1.0\n";
+    folder.write("scene.toml", crate::common::SCENE.to_owned() + unused);
+    let line = crate::common::SCENE.lines().count() + 3;
+    let run = folder.run(&["check", "scene.toml"]).expect(0);
+    let warning = format!("warning: scene.toml:{line}:8: the material `spare` is not used; ");
+    assert!(run.stderr.contains(&warning), "{run:#?}");
+    folder.run(&["check", "scene.toml", "--strict"]).expect(3);
+    let dark = "[camera]\nposition = [0, 0, 3]\nlook_at = [0, 0, 0]\n[[object]]\nname = \"ball\"\nsphere = { radius = 1 }\n";
+    folder.write("dark.toml", dark);
+    let run = folder.run(&["check", "dark.toml"]).expect(0);
+    assert!(run.stderr.contains("nothing gives light"), "{run:#?}");
+}

@@ -6,7 +6,7 @@ mod settings;
 mod trace;
 
 use crate::args::RenderArgs;
-use crate::args::value::FrameList;
+use crate::args::value::{FrameList, MOST_FRAMES};
 use crate::diagnose::Failure;
 use crate::exit::Exit;
 use crate::output::{Output, check_writable, outputs};
@@ -49,17 +49,26 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Exit, Failure> {
     };
     let result = run.frames(&frames);
     progress.finish();
-    if let Some(path) = &args.run.stats {
-        run.report.write(path, signals.exit().is_some())?;
-    }
-    result
+    let written = args.run.stats.as_ref().map(|path| run.report.write(path, signals.exit().is_some()));
+    // Of two failures the first is the cause.
+    let exit = result?;
+    written.transpose()?;
+    Ok(exit)
 }
 
 /// The frames to render, in order.
 fn frames(args: &RenderArgs, source: &Source) -> Result<Vec<i32>, Failure> {
     match (&args.picture.frames, source.frames()) {
         (Some(FrameList::Some(frames)), _) => Ok(frames.clone()),
-        (Some(FrameList::All), Some(range)) => Ok(range.collect()),
+        (Some(FrameList::All), Some(range)) => {
+            let count = u64::from(range.end().abs_diff(*range.start())) + 1;
+            if count > MOST_FRAMES {
+                let line =
+                    format!("the scene has {count} frames; write at most {MOST_FRAMES}, as in --frames 1-48");
+                return Err(Failure::usage(line));
+            }
+            Ok(range.collect())
+        }
         (Some(FrameList::All), None) => Err(Failure::usage(
             "the scene has no frames of its own; write first_frame and last_frame under [time] in it, or --frames 1-48",
         )),
@@ -127,6 +136,9 @@ impl Run<'_> {
     fn save(&self, shot: &Shot, traced: &mut Traced, frame: i32) -> Result<Vec<PathBuf>, Failure> {
         let style = save::Style::new(&self.args.output, shot);
         style.prepare(&mut traced.frame);
+        if self.source.frames().is_some() {
+            save::stamp(&mut traced.frame, frame, self.source.frame_rate());
+        }
         let mut saved = Vec::new();
         for output in self.outputs {
             let path = if traced.finished { output.path(frame) } else { output.unfinished(frame) };

@@ -8,7 +8,7 @@ use heliostat_io::Shot;
 use heliostat_io::exr_file::{self, ExrOptions, SaveReport, write_exr};
 use heliostat_io::png_file::{PngOptions, write_png};
 use heliostat_scene::Frame;
-use heliostat_scene::frame::Depth;
+use heliostat_scene::frame::{Depth, Meta};
 use std::path::Path;
 
 /// How pictures are written: flags over the scene.
@@ -49,6 +49,26 @@ impl Style {
     }
 }
 
+/// Writes number and rate of a frame of an animation into its header.
+///
+/// # Source
+/// OpenEXR, "Standard Attributes": `imageCounter` and `framesPerSecond`.
+pub(super) fn stamp(frame: &mut Frame, number: i32, frame_rate: f64) {
+    /// Thousandths of a frame: 23.976 is what files say.
+    const STEPS: u32 = 1000;
+    let steps = (frame_rate * f64::from(STEPS)).round() as i32;
+    let divisor = greatest_common_divisor(steps.unsigned_abs(), STEPS);
+    let rate = Meta::Rational(steps / divisor.cast_signed(), STEPS / divisor);
+    frame.meta.insert("imageCounter".to_owned(), Meta::Int(number));
+    frame.meta.insert("framesPerSecond".to_owned(), rate);
+}
+
+/// # Source
+/// Euclid, Elements, book VII, proposition 2.
+fn greatest_common_divisor(a: u32, b: u32) -> u32 {
+    if b == 0 { a } else { greatest_common_divisor(b, a % b) }
+}
+
 impl From<Compression> for exr_file::Compression {
     fn from(compression: Compression) -> Self {
         match compression {
@@ -73,4 +93,27 @@ fn notes(path: &Path, report: SaveReport) -> Vec<String> {
         notes.push(format!("{path}: {values} values were no finite numbers and were replaced"));
     }
     notes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use heliostat_scene::settings::PixelRect;
+    use std::collections::BTreeMap;
+
+    #[test]
+    fn frame_rates_are_reduced() {
+        for (rate, numerator, denominator) in [(24.0, 24, 1), (23.976, 2997, 125), (12.5, 25, 2)] {
+            let mut frame = Frame {
+                width: 0,
+                height: 0,
+                window: PixelRect { x0: 0, y0: 0, x1: 0, y1: 0 },
+                channels: Vec::new(),
+                meta: BTreeMap::new(),
+            };
+            stamp(&mut frame, 7, rate);
+            assert_eq!(frame.meta["framesPerSecond"], Meta::Rational(numerator, denominator));
+            assert_eq!(frame.meta["imageCounter"], Meta::Int(7));
+        }
+    }
 }

@@ -1,5 +1,7 @@
 //! `heliostat check`: everything that is wrong with a scene, without rendering it.
 
+mod lint;
+
 use crate::args::CheckArgs;
 use crate::diagnose::{Failure, print_warning};
 use crate::exit::Exit;
@@ -47,10 +49,16 @@ fn findings(args: &CheckArgs) -> (Vec<heliostat_io::Warning>, Option<LoadError>)
     let first = source.first_frame();
     let last = source.frames().map_or(first, |frames| *frames.end());
     for frame in [first, last] {
-        match source.shot(frame) {
-            Ok(shot) => warnings
-                .extend(shot.warnings.into_iter().filter(|w| !warnings.contains(w)).collect::<Vec<_>>()),
+        let shot = match source.shot(frame) {
+            Ok(shot) => shot,
             Err(error) => return (warnings, Some(error)),
+        };
+        let more = shot.warnings.into_iter().chain(lint::lint(&args.scene, &shot.scene));
+        // What is wrong at both frames is told once.
+        for warning in more {
+            if !warnings.contains(&warning) {
+                warnings.push(warning);
+            }
         }
     }
     (warnings, None)
