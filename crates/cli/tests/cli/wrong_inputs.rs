@@ -140,6 +140,10 @@ material = "m"
 [[model]]
 name = "model"
 file = "model.obj"
+
+[[light]]
+name = "key"
+point = { position = [2, 4, 3] }
 "#;
 
 const MODEL: &[u8] = b"mtllib model.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n";
