@@ -90,7 +90,7 @@ pub enum RenderError {
 }
 
 /// The first issue, and how many there are besides.
-fn summary(issues: &[SceneIssue]) -> String {
+pub(crate) fn summary(issues: &[SceneIssue]) -> String {
     let first = issues.first().map(ToString::to_string).unwrap_or_default();
     match issues.len() {
         0 | 1 => first,

@@ -5,7 +5,7 @@ mod common;
 use common::{
     Looker, Stage, assert_close, at, ball_mesh, black, grey, plane, rectangle, sphere, tilted, white,
 };
-use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
+use glam::{DAffine3, DMat3, DVec3, Vec3};
 use heliostat_geometry::shape::Disk;
 use heliostat_geometry::{Shape, Transform};
 use heliostat_scene::light::{Falloff, LightKind};
@@ -242,18 +242,5 @@ fn visible_lights_are_seen_on_their_shining_side_and_throw_no_shadow() {
         let floor =
             Looker::new(&stage).look(Vec3::new(1.0, 1.0, 0.0), Vec3::new(-1.0, -1.0, 0.0).normalize(), 0);
         assert_close(floor.radiance.y, 8.0 / 4.0 + 3.0 * PI * 0.25 / 4.0, 0.02);
-    }
-}
-
-#[test]
-fn light_sources_of_no_or_endless_area_are_dark_instead_of_wrong() {
-    let flat = Geometry::Shape(Shape::Rectangle(heliostat_geometry::shape::Rectangle { size: Vec2::ZERO }));
-    for geometry in [flat, plane()] {
-        let stage = Stage::new().with(plane(), white(), Transform::IDENTITY).with_light(
-            1.0,
-            4,
-            area(geometry, at(0.0, 2.0, 0.0), true),
-        );
-        assert_eq!(irradiance(&stage, 0.0, 0.0), 0.0);
     }
 }

@@ -1,42 +1,19 @@
 //! Why a scene could not be made ready for rays.
 
+use crate::error::summary;
 use heliostat_index::BuildError;
 use heliostat_scene::Scene;
+use heliostat_scene::validate::{Problem, SceneIssue};
 
 /// Why a scene could not be made ready for rays.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum WorldError {
-    /// Something refers to something that the scene does not have.
-    #[error("{user} refers to {what} {index}, but the scene has only {count}")]
-    Dangling {
-        /// What refers to it, with its name.
-        user: String,
-        /// What kind of thing is missing.
-        what: &'static str,
-        /// Its index.
-        index: u32,
-        /// How many there are.
-        count: usize,
-    },
-    /// An object has no material.
-    #[error("object `{object}` has no material; give it one")]
-    NoMaterial {
-        /// Name of the object.
-        object: String,
-    },
-    /// An image has not as many samples as its size says.
-    #[error("the image of {user} is {width} by {height} pixels, but does not hold as many samples")]
-    Image {
-        /// What shows it, with its name.
-        user: String,
-        /// Pixels per row.
-        width: u32,
-        /// Rows.
-        height: u32,
-    },
-    /// A mesh is damaged, or no tree could be built over it.
-    #[error("mesh {mesh} cannot be used")]
+    /// Something in the scene means nothing: all that was found.
+    #[error("{}", summary(.0))]
+    Scene(Vec<SceneIssue>),
+    /// No tree could be built over a mesh.
+    #[error("no index could be built over mesh {mesh}")]
     MeshTree {
         /// Index of the mesh.
         mesh: usize,
@@ -63,4 +40,11 @@ pub(super) fn objects(scene: &Scene, source: BuildError) -> WorldError {
     };
     let what = bad.map_or_else(|| "the scene".to_owned(), |name| format!("object `{name}`"));
     WorldError::Objects { what, source }
+}
+
+/// Refuses a scene that does not validate. Cameras look at a world; it needs none.
+pub(super) fn check(scene: &Scene) -> Result<(), WorldError> {
+    let mut issues = scene.validate().err().unwrap_or_default();
+    issues.retain(|issue| issue.problem != Problem::NoCamera);
+    if issues.is_empty() { Ok(()) } else { Err(WorldError::Scene(issues)) }
 }

@@ -4,7 +4,6 @@
 //! boxes of its objects. The visible surfaces of area lights stand beside the objects: rays see them, but they throw
 //! no shadow, so that a bulb does not hide the light inside it.
 
-mod check;
 mod crossing;
 mod error;
 mod hit;
@@ -82,7 +81,7 @@ impl<'s> World<'s> {
     /// Makes `scene` ready.
     ///
     /// # Errors
-    /// When the scene refers to parts it does not have, or a mesh is damaged.
+    /// When the scene is not [valid](Scene::validate), cameras aside, or an index cannot be built.
     pub fn new(scene: &'s Scene, settings: &RenderSettings) -> Result<Self, WorldError> {
         Self::with_cache(scene, settings, &mut TreeCache::default())
     }
@@ -96,7 +95,7 @@ impl<'s> World<'s> {
         settings: &RenderSettings,
         cache: &mut TreeCache,
     ) -> Result<Self, WorldError> {
-        check::check(scene)?;
+        error::check(scene)?;
         let trees = cache.trees(scene)?;
         let objects = scene.objects.iter().map(|object| (&object.geometry, Place::of(&object.motion)));
         let (shining, surfaces): (Vec<_>, Vec<_>) = visible_lights(scene).unzip();
