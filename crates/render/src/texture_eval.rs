@@ -38,7 +38,7 @@ pub(crate) fn eval(texture: &Texture, at: &TexturePoint) -> Vec4 {
 pub(crate) fn coverage(texture: &Texture, at: &TexturePoint) -> f32 {
     let value = eval(texture, at);
     match &texture.pattern {
-        Pattern::Image { image, .. } if image.channels.is_multiple_of(2) => value.w,
+        Pattern::Image { image, .. } if image.has_alpha() => value.w,
         Pattern::Missing => 1.0,
         Pattern::Image { .. } | Pattern::Checker { .. } => luminance(value.truncate()),
     }

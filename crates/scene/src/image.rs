@@ -61,6 +61,11 @@ impl Image {
         }
     }
 
+    /// Whether the last channel is alpha.
+    pub fn has_alpha(&self) -> bool {
+        self.channels.is_multiple_of(2)
+    }
+
     /// Bytes that the samples take.
     pub fn bytes(&self) -> usize {
         match &self.samples {

@@ -4,7 +4,7 @@
 //! ```toml
 //! [[material]]
 //! name = "glass"
-//! opacity = 1                    # 0 lets rays straight through; with a texture, its alpha, or its luminance where it has no alpha
+//! opacity = 1                    # 0 lets rays straight through; with a texture, its alpha, else its luminance
 //! bump = { texture = "noise", strength = 0.01 }              # metres of white; or
 //! # normal_map = { texture = "bricks_normal", strength = 1 } # tangent space, +y up
 //!
@@ -100,6 +100,8 @@ pub(super) enum TextureUse {
     Color,
     /// A height, a direction, an exponent: linear numbers.
     Data,
+    /// Coverage: alpha, which no encoding touches, or the luminance of an image without it, linear.
+    Coverage,
 }
 
 /// Finds a texture by name for a use.
@@ -120,7 +122,7 @@ impl MaterialTable {
         Ok(Material {
             name: self.name.to_string(),
             surface: Surface::Phong(phong),
-            opacity: float_input(self.opacity.as_ref(), Fraction::f32, one, TextureUse::Data, textures)?,
+            opacity: float_input(self.opacity.as_ref(), Fraction::f32, one, TextureUse::Coverage, textures)?,
             relief: self.relief(textures)?,
         })
     }

@@ -52,13 +52,9 @@ impl<'a> Textures<'a> {
 
     fn get(&mut self, index: usize, used_for: TextureUse) -> TextureId {
         let table = &self.tables[index];
-        let encoding = match (table.encoding(), used_for) {
-            (EncodingMode::Auto, TextureUse::Data) => EncodingMode::Linear,
-            (encoding, _) => encoding,
-        };
-        // Only an image that is read as the file says depends on its use.
-        let depends = table.image.is_some() && table.encoding() == EncodingMode::Auto;
-        let slot = usize::from(depends && used_for == TextureUse::Data);
+        let is_data = self.is_data(table, used_for);
+        let encoding = if is_data { EncodingMode::Linear } else { table.encoding() };
+        let slot = usize::from(is_data);
         if let Some(id) = self.made[index][slot] {
             return id;
         }
@@ -67,6 +63,22 @@ impl<'a> Textures<'a> {
         self.textures.push(Texture { name: table.name.to_string(), pattern, uv: table.uv_transform() });
         self.made[index][slot] = Some(id);
         id
+    }
+
+    /// Whether an image is read as plain numbers because of its use: only one that is read as the file says depends on it.
+    fn is_data(&mut self, table: &TextureTable, used_for: TextureUse) -> bool {
+        let Some(file) = table.image.as_ref().filter(|_| table.encoding() == EncodingMode::Auto) else {
+            return false;
+        };
+        match used_for {
+            TextureUse::Color => false,
+            TextureUse::Data => true,
+            // Alpha serves from the image that gives the colour, where it is read anyway.
+            TextureUse::Coverage => match self.assets.image(file, EncodingMode::Auto, None) {
+                Ok(image) => !image.has_alpha(),
+                Err(_) => false,
+            },
+        }
     }
 
     fn pattern(&mut self, table: &TextureTable, encoding: EncodingMode) -> Pattern {

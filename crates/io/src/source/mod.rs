@@ -65,6 +65,17 @@ pub struct Shot {
 ///
 /// # Errors
 /// When the file cannot be read, or where it is wrong; errors in an override name the flag in place of the file.
+///
+/// ```no_run
+/// # fn main() -> Result<(), heliostat_io::LoadError> {
+/// let mut options = heliostat_io::OpenOptions::default();
+/// options.overrides.push(("render.samples".into(), "4".into()));
+/// let source = heliostat_io::open("scenes/minimal.toml".as_ref(), &options)?;
+/// let shot = source.shot(source.first_frame())?;
+/// assert_eq!(shot.settings.samples, 4);
+/// # Ok(())
+/// # }
+/// ```
 pub fn open(path: &Path, options: &OpenOptions) -> Result<Source, LoadError> {
     let is_model = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj"));
     let text = if is_model { String::new() } else { read_text(path)? };

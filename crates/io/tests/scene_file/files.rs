@@ -2,7 +2,9 @@
 
 use crate::support::{Folder, set};
 use heliostat_io::{OpenOptions, open};
+use heliostat_scene::TextureId;
 use heliostat_scene::image::Encoding;
+use heliostat_scene::material::{Relief, Surface};
 use heliostat_scene::object::Geometry;
 use heliostat_scene::scene::Background;
 use heliostat_scene::texture::Pattern;
@@ -116,22 +118,28 @@ fn a_missing_image_is_a_warning_and_magenta() {
 fn maps_of_numbers_are_read_as_they_are_and_colours_as_srgb() {
     let folder = Folder::new();
     grey(&folder, "a.png");
+    let path = folder.write("leaf.png", "");
+    image::RgbaImage::from_pixel(2, 2, image::Rgba([9, 99, 9, 50])).save(path).unwrap();
     let scene = "camera = {}
         texture = [{ name = 't', image = 'a.png' }, { name = 's', image = 'a.png', encoding = 'srgb' }]
         [[material]]\nname = 'm'\nphong.diffuse = { texture = 't' }\nphong.shininess = { texture = 't' }
-        normal_map = { texture = 's' }\nopacity = { texture = 't' }\n";
+        normal_map = { texture = 's' }\nopacity = { texture = 't' }
+        [[texture]]\nname = 'leaf'\nimage = 'leaf.png'
+        [[material]]\nname = 'n'\nphong.diffuse = { texture = 'leaf' }\nopacity = { texture = 'leaf' }\n";
     let shot = folder.open(scene, &OpenOptions::default()).unwrap().shot(1).unwrap();
-    let encoding = |index: usize| match &shot.scene.textures[index].pattern {
+    let encoding = |id: Option<TextureId>| match &shot.scene.textures[id.unwrap().index()].pattern {
         Pattern::Image { image, .. } => image.encoding,
         other => panic!("{other:?}"),
     };
-    let material = &shot.scene.materials[0];
-    let heliostat_scene::material::Surface::Phong(phong) = &material.surface;
-    assert_eq!(encoding(phong.diffuse.texture.unwrap().index()), Encoding::Srgb);
-    assert_eq!(encoding(phong.shininess.texture.unwrap().index()), Encoding::Linear);
-    assert_eq!(material.opacity.texture, phong.diffuse.texture, "alpha has no encoding");
-    let Some(heliostat_scene::material::Relief::Normal { texture, .. }) = material.relief else { panic!() };
-    assert_eq!(encoding(texture.index()), Encoding::Srgb, "the file says so");
+    let [material, leaf] = &shot.scene.materials[..] else { panic!() };
+    let Surface::Phong(phong) = &material.surface;
+    assert_eq!(encoding(phong.diffuse.texture), Encoding::Srgb);
+    assert_eq!(encoding(phong.shininess.texture), Encoding::Linear);
+    assert_eq!(encoding(material.opacity.texture), Encoding::Linear, "a mask without alpha");
+    let Some(Relief::Normal { texture, .. }) = material.relief else { panic!() };
+    assert_eq!(encoding(Some(texture)), Encoding::Srgb, "the file says so");
+    let Surface::Phong(phong) = &leaf.surface;
+    assert_eq!(leaf.opacity.texture, phong.diffuse.texture, "alpha has no encoding");
 }
 
 #[test]
