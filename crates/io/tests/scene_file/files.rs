@@ -121,10 +121,10 @@ fn maps_of_numbers_are_read_as_they_are_and_colours_as_srgb() {
     let path = folder.write("leaf.png", "");
     image::RgbaImage::from_pixel(2, 2, image::Rgba([9, 99, 9, 50])).save(path).unwrap();
     let scene = "camera = {}
-        texture = [{ name = 't', image = 'a.png' }, { name = 's', image = 'a.png', encoding = 'srgb' }]
+        texture = [{ name = 't', image = 'a.png' }, { name = 's', image = 'a.png', encoding = 'srgb' },
+                   { name = 'leaf', image = 'leaf.png' }]
         [[material]]\nname = 'm'\nphong.diffuse = { texture = 't' }\nphong.shininess = { texture = 't' }
         normal_map = { texture = 's' }\nopacity = { texture = 't' }
-        [[texture]]\nname = 'leaf'\nimage = 'leaf.png'
         [[material]]\nname = 'n'\nphong.diffuse = { texture = 'leaf' }\nopacity = { texture = 'leaf' }\n";
     let shot = folder.open(scene, &OpenOptions::default()).unwrap().shot(1).unwrap();
     let encoding = |id: Option<TextureId>| match &shot.scene.textures[id.unwrap().index()].pattern {
