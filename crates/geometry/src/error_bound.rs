@@ -7,7 +7,7 @@
 //! Wächter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems, 2019.
 
 use crate::ray::Interval;
-use glam::{DMat3, DVec3, Vec3};
+use glam::{DMat3, DVec3, Mat3, Vec3};
 
 /// Half the distance between 1 and the next `f32`: the largest relative error of one rounded operation.
 pub const UNIT_ROUNDOFF: f32 = f32::EPSILON * 0.5;
@@ -73,12 +73,26 @@ pub fn rounded_point(p: Vec3, extent: Vec3, slack: DVec3) -> Vec3 {
     gamma(2) * (p.abs() + extent + slack.as_vec3()) + slack.as_vec3() + Vec3::splat(f32::MIN_POSITIVE)
 }
 
-/// Bound of the error, per axis, with which a point returns from world space to local space and back, in `f64`.
+/// Bound of the error, per axis, with which a point returns from world space to local space and back, in `f64`, by maps
+/// whose absolute values are `linear` and `inverse`.
 ///
 /// `magnitude` is the absolute world position plus the absolute translation. Twelve operations each for the map,
 /// its inverse, and the inverse's own error, each amplified by at most the absolute map times the absolute inverse.
+#[inline]
 pub fn round_trip(linear: DMat3, inverse: DMat3, magnitude: DVec3) -> DVec3 {
-    gamma_f64(36) * (abs(linear) * (abs(inverse) * magnitude))
+    round_trip_by_shift(linear * (inverse * magnitude))
+}
+
+/// [`round_trip`] by a translation.
+#[inline]
+pub fn round_trip_by_shift(magnitude: DVec3) -> DVec3 {
+    gamma_f64(36) * magnitude
+}
+
+/// Whether a vector is as near to unit length as one that was divided by its length.
+#[inline]
+pub fn is_unit(v: DVec3) -> bool {
+    (v.length_squared() - 1.0).abs() <= gamma_f64(16)
 }
 
 /// A matrix with the absolute value of every element.
@@ -103,21 +117,24 @@ pub fn segment_end(segment: Vec3) -> Vec3 {
 /// Moves `p` along the unit normal `n`, to the side that `dir` points to, out of the box of error `p_err`.
 ///
 /// The result is rounded away from `p`, so that even a bound below one ulp moves the point.
+#[inline]
 pub fn offset_origin(p: Vec3, p_err: Vec3, n: Vec3, dir: Vec3) -> Vec3 {
-    let distance = n.abs().dot(p_err);
-    // In `f64`, or the rounding of the products could turn a grazing ray to the wrong side.
-    let offset = if dir.as_dvec3().dot(n.as_dvec3()) < 0.0 { -distance * n } else { distance * n };
+    let along = dir.dot(n);
+    // Where rounding could turn a grazing ray to the wrong side, in `f64`, in which products are exact.
+    let is_grazing = along.abs() <= gamma(4) * dir.abs().dot(n.abs());
+    let is_behind = if is_grazing { dir.as_dvec3().dot(n.as_dvec3()) < 0.0 } else { along < 0.0 };
+    offset_along(p, p_err, if is_behind { -n } else { n })
+}
+
+/// [`offset_origin`] to the side of the normal.
+#[inline]
+pub fn offset_along(p: Vec3, p_err: Vec3, n: Vec3) -> Vec3 {
+    let offset = n.abs().dot(p_err) * n;
     let moved = p + offset;
-    let away = |moved: f32, offset: f32| {
-        if offset > 0.0 {
-            moved.next_up()
-        } else if offset < 0.0 {
-            moved.next_down()
-        } else {
-            moved
-        }
-    };
-    Vec3::new(away(moved.x, offset.x), away(moved.y, offset.y), away(moved.z, offset.z))
+    // A step of at least one ulp, without a look at the bits.
+    let step = moved.abs() * f32::EPSILON + Vec3::splat(f32::MIN_POSITIVE);
+    let away = |offset: f32, step: f32| if offset == 0.0 { 0.0 } else { step.copysign(offset) };
+    moved + Vec3::new(away(offset.x, step.x), away(offset.y, step.y), away(offset.z, step.z))
 }
 
 /// Bound, in lengths, of how far beside its place the watertight triangle test sees a point of a triangle.
@@ -161,4 +178,24 @@ pub fn inverse_direction(dir: Vec3) -> Vec3 {
     let floor = UNIT_ROUNDOFF * UNIT_ROUNDOFF * dir.abs().max_element();
     let inverse = |d: f32| 1.0 / if d.abs() < floor { floor.copysign(d) } else { d };
     Vec3::new(inverse(dir.x), inverse(dir.y), inverse(dir.z))
+}
+
+/// Bound of the rounding, in `f32`, of the discriminant of a line and a sphere: `r^2 d^2 - |l x d|^2` with the radius `r`, the
+/// vector `l` from a point of the line to the centre, `distance` long, and the direction `d`; per unit of `d^2`.
+///
+/// It holds where the discriminant is near 0, and so `|l x d|` near `r |d|`. Each component of the cross product has three
+/// roundings on `|l| |d|` at most, the one of `l` included; its square counts them twice, and the last terms are those of the
+/// squares.
+pub fn line_and_sphere(distance: f32, radius: f32) -> f32 {
+    let across = gamma(8) * distance;
+    2.0 * across * radius + across * across + gamma(8) * radius * radius
+}
+
+/// Bound of the distance, per axis, between the points of a segment in the space of a shape and those that `f32` makes of
+/// it: its start was mapped in `f64` and is rounded once, its direction, up to `reach` long per axis, is mapped by the
+/// rounded map `linear`. `size` is the largest coordinate of the shape, whose own rounding counts as well.
+pub fn local_segment(origin: Vec3, linear: Mat3, reach: Vec3, size: Vec3) -> f32 {
+    let mapped =
+        linear.x_axis.abs() * reach.x + linear.y_axis.abs() * reach.y + linear.z_axis.abs() * reach.z;
+    gamma(8) * (origin.abs() + mapped + size).max_element() + f32::MIN_POSITIVE
 }

@@ -1,6 +1,6 @@
 //! A point on a surface with the bound of its error, and the rays that leave it.
 
-use crate::error_bound::{offset_origin, segment_end};
+use crate::error_bound::{offset_along, offset_origin, segment_end};
 use crate::ray::{Interval, Ray};
 use glam::{Vec2, Vec3};
 
@@ -43,7 +43,7 @@ impl SurfacePoint {
 
     /// Where all rays start that leave to the side of `ng`: worked out once for many of them.
     pub fn departure(&self) -> Departure {
-        Departure { origin: offset_origin(self.p, self.p_err, self.ng, self.ng) }
+        Departure { origin: offset_along(self.p, self.p_err, self.ng) }
     }
 
     /// A ray to `target`, a point in free space, with `t` in `[0, 1]`.
@@ -71,6 +71,12 @@ pub struct Departure {
 }
 
 impl Departure {
+    /// Where the rays start.
+    #[inline]
+    pub fn origin(&self) -> Vec3 {
+        self.origin
+    }
+
     /// See [`SurfacePoint::spawn`].
     pub fn spawn(&self, dir: Vec3) -> Ray {
         Ray::new(self.origin, dir)

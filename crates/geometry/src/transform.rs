@@ -1,7 +1,7 @@
 //! Affine transforms with their inverse, composed in `f64`.
 
 use crate::aabb::Aabb;
-use crate::error_bound::{abs, round_trip, rounded_point};
+use crate::error_bound::{abs, is_unit, round_trip, round_trip_by_shift, rounded_point};
 use crate::hit::{Hit, SurfacePoint, SurfaceSample};
 use crate::ray::{LocalRay, Ray};
 use crate::shape::{AreaSample, LocalHit};
@@ -22,7 +22,25 @@ use glam::{DAffine3, DMat3, DVec3, Vec3};
 pub struct Transform {
     to_world: DAffine3,
     to_local: DAffine3,
-    is_identity: bool,
+    kind: Kind,
+}
+
+/// How much of the map there is: the less, the less work for every ray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Identity,
+    Translation,
+    Affine,
+}
+
+impl Kind {
+    fn of(map: &DAffine3) -> Self {
+        match (map.matrix3 == DMat3::IDENTITY, map.translation == DVec3::ZERO) {
+            (true, true) => Self::Identity,
+            (true, false) => Self::Translation,
+            (false, _) => Self::Affine,
+        }
+    }
 }
 
 impl Default for Transform {
@@ -34,7 +52,7 @@ impl Default for Transform {
 impl Transform {
     /// Local space is world space.
     pub const IDENTITY: Self =
-        Self { to_world: DAffine3::IDENTITY, to_local: DAffine3::IDENTITY, is_identity: true };
+        Self { to_world: DAffine3::IDENTITY, to_local: DAffine3::IDENTITY, kind: Kind::Identity };
 
     /// From the map to world space; `None` when it has no finite inverse.
     pub fn new(to_world: DAffine3) -> Option<Self> {
@@ -47,18 +65,14 @@ impl Transform {
         let residual = 2.0 * DMat3::IDENTITY - to_world.matrix3 * to_local.matrix3;
         to_local.matrix3 *= residual;
         to_local.translation = -(to_local.matrix3 * to_world.translation);
-        let is_identity = to_world == DAffine3::IDENTITY;
-        to_local.is_finite().then_some(Self { to_world, to_local, is_identity })
+        to_local.is_finite().then(|| Self { to_world, to_local, kind: Kind::of(&to_world) })
     }
 
     /// A shift.
     pub fn translation(by: Vec3) -> Self {
         let by = by.as_dvec3();
-        Self {
-            to_world: DAffine3::from_translation(by),
-            to_local: DAffine3::from_translation(-by),
-            is_identity: by == DVec3::ZERO,
-        }
+        let to_world = DAffine3::from_translation(by);
+        Self { to_world, to_local: DAffine3::from_translation(-by), kind: Kind::of(&to_world) }
     }
 
     /// A scale per axis, negative to mirror; `None` when one is 0 or not finite.
@@ -73,11 +87,9 @@ impl Transform {
             * DMat3::from_rotation_y(angles.y)
             * DMat3::from_rotation_x(angles.x);
         let inverse = turn.transpose();
-        Self {
-            to_world: DAffine3 { matrix3: turn, translation: DVec3::ZERO },
-            to_local: DAffine3 { matrix3: inverse, translation: DVec3::ZERO },
-            is_identity: turn == DMat3::IDENTITY,
-        }
+        let to_world = DAffine3 { matrix3: turn, translation: DVec3::ZERO };
+        let to_local = DAffine3 { matrix3: inverse, translation: DVec3::ZERO };
+        Self { to_world, to_local, kind: Kind::of(&to_world) }
     }
 
     /// The place of a camera at `position`: local `-z` points to `target` and local `+y` as near to `up` as can be.
@@ -129,9 +141,14 @@ impl Transform {
         self.to_world
     }
 
+    /// The map from world to local space.
+    pub fn inverse_matrix(&self) -> DAffine3 {
+        self.to_local
+    }
+
     /// Whether local space is world space.
     pub fn is_identity(&self) -> bool {
-        self.is_identity
+        self.kind == Kind::Identity
     }
 
     /// Whether the map turns right hands into left hands.
@@ -151,6 +168,9 @@ impl Transform {
 
     /// A displacement from local to world space.
     pub fn vector(&self, v: Vec3) -> Vec3 {
+        if self.kind != Kind::Affine {
+            return v;
+        }
         self.to_world.transform_vector3(v.as_dvec3()).as_vec3()
     }
 
@@ -161,13 +181,14 @@ impl Transform {
 
     /// Normals map by the inverse transpose, so that they stay at right angles to tangents.
     fn normal_f64(&self, n: DVec3) -> DVec3 {
-        (self.to_local.matrix3.transpose() * n).normalize_or_zero()
+        let normal = if self.kind == Kind::Affine { self.to_local.matrix3.transpose() * n } else { n };
+        if is_unit(normal) { normal } else { normal.normalize_or_zero() }
     }
 
     /// The ray in local space, `t` kept, for triangle meshes.
     #[inline]
     pub fn ray_to_local(&self, ray: &Ray) -> Ray {
-        if self.is_identity {
+        if self.kind == Kind::Identity {
             return *ray;
         }
         let local = self.local_ray(ray);
@@ -177,19 +198,21 @@ impl Transform {
     /// The ray in local space, `t` kept, for analytic shapes.
     #[inline]
     pub fn local_ray(&self, ray: &Ray) -> LocalRay {
-        if self.is_identity {
-            return LocalRay::from(ray);
-        }
-        LocalRay {
-            origin: self.to_local.transform_point3(ray.origin.as_dvec3()),
-            dir: self.to_local.transform_vector3(ray.dir.as_dvec3()),
-            range: ray.range,
+        let LocalRay { origin, dir, range } = LocalRay::from(ray);
+        match self.kind {
+            Kind::Identity => LocalRay { origin, dir, range },
+            Kind::Translation => LocalRay { origin: origin + self.to_local.translation, dir, range },
+            Kind::Affine => LocalRay {
+                origin: self.to_local.transform_point3(origin),
+                dir: self.to_local.transform_vector3(dir),
+                range,
+            },
         }
     }
 
     /// The smallest box around the image of `bounds`, rounded outward. Infinite sides stay infinite.
     pub fn bounds(&self, bounds: Aabb) -> Aabb {
-        if self.is_identity || bounds.is_empty() {
+        if self.is_identity() || bounds.is_empty() {
             return bounds;
         }
         if !bounds.is_finite() {
@@ -207,18 +230,27 @@ impl Transform {
     ///
     /// `p`, `p_err` and `ng` as in [`LocalHit`].
     pub fn surface_point(&self, p: DVec3, p_err: f64, ng: DVec3) -> SurfacePoint {
-        if self.is_identity {
-            let p = p.as_vec3();
-            let p_err = rounded_point(p, Vec3::ZERO, DVec3::splat(p_err));
-            return SurfacePoint { p, p_err, ng: ng.normalize_or_zero().as_vec3() };
-        }
-        let linear = self.to_world.matrix3;
-        let world = self.to_world.transform_point3(p);
+        let world = match self.kind {
+            Kind::Identity => {
+                let p = p.as_vec3();
+                let p_err = rounded_point(p, Vec3::ZERO, DVec3::splat(p_err));
+                return SurfacePoint { p, p_err, ng: self.normal_f64(ng).as_vec3() };
+            }
+            Kind::Translation => p + self.to_world.translation,
+            Kind::Affine => self.to_world.transform_point3(p),
+        };
         let magnitude = world.abs() + self.to_world.translation.abs();
-        let slack = abs(linear) * DVec3::splat(p_err) + round_trip(linear, self.to_local.matrix3, magnitude);
+        let (spread, slack) = if self.kind == Kind::Translation {
+            (p.abs(), DVec3::splat(p_err) + round_trip_by_shift(magnitude))
+        } else {
+            let linear = abs(self.to_world.matrix3);
+            let slack =
+                linear * DVec3::splat(p_err) + round_trip(linear, abs(self.to_local.matrix3), magnitude);
+            (linear * p.abs(), slack)
+        };
         SurfacePoint {
             p: world.as_vec3(),
-            p_err: rounded_point(world.as_vec3(), (abs(linear) * p.abs()).as_vec3(), slack),
+            p_err: rounded_point(world.as_vec3(), spread.as_vec3(), slack),
             ng: self.normal_f64(ng).as_vec3(),
         }
     }
@@ -257,7 +289,7 @@ impl Transform {
     /// A hit in local space, seen from world space.
     pub fn hit_to_world(&self, local: &LocalHit) -> Hit {
         let at = self.surface_point(local.p, local.p_err, local.ng);
-        let ns = self.normal_f64(local.ns).as_vec3();
+        let ns = if local.ns == local.ng { at.ng } else { self.normal_f64(local.ns).as_vec3() };
         Hit {
             t: local.t as f32,
             at,

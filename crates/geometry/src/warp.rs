@@ -20,7 +20,7 @@ use std::f32::consts::{FRAC_1_PI, FRAC_PI_4, PI, TAU};
 ///
 /// # Source
 /// Shirley, Chiu, "A Low Distortion Map Between Disk and Square", JGT 2(3), 1997.
-#[inline]
+#[inline(always)]
 pub fn square_to_disk(u: Vec2) -> Vec2 {
     let offset = 2.0 * u - Vec2::ONE;
     // Each quarter of the square, from diagonal to diagonal, goes to a quarter of the disk. Choices instead of branches,
@@ -36,7 +36,7 @@ pub fn square_to_disk(u: Vec2) -> Vec2 {
 ///
 /// The series of Taylor up to the power from which on nothing is left in an `f32`: what follows is below
 /// `(pi / 4)^10 / 10!`, less than half of the unit roundoff. Several times faster than the functions for all angles.
-#[inline]
+#[inline(always)]
 fn sin_cos_of_eighth(share: f32) -> (f32, f32) {
     let x = FRAC_PI_4 * share;
     let x2 = x * x;

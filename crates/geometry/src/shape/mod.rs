@@ -98,6 +98,11 @@ pub trait Geometry {
     fn hit(&self, ray: &LocalRay) -> Option<Root>;
     /// The surface at a root that [`Geometry::hit`] gave for the same ray.
     fn surface(&self, ray: &LocalRay, root: Root) -> LocalHit;
+    /// [`Geometry::surface`] for callers that need no surface parameters: `uv`, `dpdu` and `dpdv` may be zero where that saves
+    /// work.
+    fn bare_surface(&self, ray: &LocalRay, root: Root) -> LocalHit {
+        self.surface(ray, root)
+    }
     /// Every root in the range of the ray, nearest first.
     fn each_root(&self, ray: &LocalRay, visit: &mut dyn FnMut(Root)) {
         let mut rest = *ray;

@@ -63,18 +63,29 @@ impl Geometry for Sphere {
     }
 
     fn surface(&self, ray: &LocalRay, root: Root) -> LocalHit {
+        let bare = self.bare_surface(ray, root);
+        let (r, n) = (f64::from(self.radius), bare.ng);
+        let (radial, ring) = Radial::through(n);
+        LocalHit {
+            uv: Vec2::new(radial.u(), latitude(ring, n.y)),
+            dpdu: radial.dpdu(r * ring),
+            dpdv: (PI * r * radial.point(-n.y, ring)).as_vec3(),
+            ..bare
+        }
+    }
+
+    fn bare_surface(&self, ray: &LocalRay, root: Root) -> LocalHit {
         let r = f64::from(self.radius);
         let n = ray.at(root.t).normalize();
-        let (radial, ring) = Radial::through(n);
         LocalHit {
             t: root.t,
             p: r * n,
             p_err: shape_point(r),
             ng: n,
             ns: n,
-            uv: Vec2::new(radial.u(), latitude(ring, n.y)),
-            dpdu: radial.dpdu(r * ring),
-            dpdv: (PI * r * radial.point(-n.y, ring)).as_vec3(),
+            uv: Vec2::ZERO,
+            dpdu: Vec3::ZERO,
+            dpdv: Vec3::ZERO,
         }
     }
 
