@@ -162,4 +162,16 @@ impl Material {
             relief: None,
         }
     }
+
+    /// The textures that it looks at, some of them more than once.
+    pub fn textures(&self) -> impl Iterator<Item = TextureId> {
+        let Surface::Phong(phong) = &self.surface;
+        let Phong { ambient, diffuse, specular, emission, mirror, transparency, shininess, .. } = phong;
+        let colors = [ambient, diffuse, specular, emission, mirror, transparency].map(|input| input.texture);
+        let numbers = [shininess, &self.opacity].map(|input| input.texture);
+        let relief = self.relief.map(|relief| match relief {
+            Relief::Bump { texture, .. } | Relief::Normal { texture, .. } => texture,
+        });
+        colors.into_iter().chain(numbers).chain([relief]).flatten()
+    }
 }

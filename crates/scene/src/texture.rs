@@ -98,3 +98,13 @@ pub struct Texture {
     /// Applied to `uv` (and to `x`, `z` of local space by scale alone).
     pub uv: UvTransform,
 }
+
+impl Texture {
+    /// Whether its value depends on the surface parameters.
+    pub fn uses_parameters(&self) -> bool {
+        match self.pattern {
+            Pattern::Image { .. } | Pattern::Checker { space: CheckerSpace::Uv, .. } => true,
+            Pattern::Checker { space: CheckerSpace::Local, .. } | Pattern::Missing => false,
+        }
+    }
+}
