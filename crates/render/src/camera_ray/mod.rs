@@ -111,8 +111,11 @@ impl CameraRays {
 
     /// From camera to world space at a time of the shutter.
     fn pose(&self, time: f32) -> DAffine3 {
+        if !self.motion.is_moving() {
+            return *self.motion.first();
+        }
         let (first, second, weight) = self.motion.around(time);
-        if !self.motion.is_moving() || first == second {
+        if first == second {
             return *first;
         }
         let mix = |a: DVec3, b: DVec3| a.lerp(b, f64::from(weight));

@@ -20,6 +20,8 @@ pub(super) struct Picture {
     projection: Projection,
     /// Columns and rows.
     size: DVec2,
+    /// Half of the height at depth 1, where there is such a height.
+    half_height: f64,
 }
 
 /// A ray in the space of the camera, before the lens.
@@ -33,7 +35,14 @@ pub(super) struct LocalRay {
 
 impl Picture {
     pub(super) fn new(projection: Projection, width: u32, height: u32) -> Self {
-        Self { projection, size: DVec2::new(f64::from(width), f64::from(height)) }
+        let half_height = match projection {
+            Projection::Perspective { fov_y } | Projection::Cylindrical { fov_y, .. } => {
+                (0.5 * f64::from(fov_y)).tan()
+            }
+            Projection::Orthographic { height } => 0.5 * f64::from(height),
+            Projection::Fisheye { .. } | Projection::Panorama => 0.0,
+        };
+        Self { projection, size: DVec2::new(f64::from(width), f64::from(height)), half_height }
     }
 
     /// Whether points at equal depth lie in a plane across the view; on a sphere around the camera if not.
@@ -45,12 +54,12 @@ impl Picture {
     pub(super) fn ray(&self, place: DVec2) -> Option<LocalRay> {
         let through = |dir| LocalRay { origin: DVec3::ZERO, dir };
         match self.projection {
-            Projection::Perspective { fov_y } => {
-                let at = self.off_centre(place) * half_tan(fov_y);
+            Projection::Perspective { .. } => {
+                let at = self.off_centre(place) * self.half_height;
                 Some(through(at.extend(-1.0)))
             }
-            Projection::Orthographic { height } => {
-                let at = self.off_centre(place) * 0.5 * f64::from(height);
+            Projection::Orthographic { .. } => {
+                let at = self.off_centre(place) * self.half_height;
                 Some(LocalRay { origin: at.extend(0.0), dir: DVec3::NEG_Z })
             }
             Projection::Fisheye { fov } => self.fisheye(place, f64::from(fov)).map(through),
@@ -59,8 +68,8 @@ impl Picture {
                 let level = self.turn(place.x, TAU);
                 Some(through((level * height.cos()).with_y(height.sin())))
             }
-            Projection::Cylindrical { fov_x, fov_y } => {
-                let height = (1.0 - 2.0 * place.y / self.size.y) * half_tan(fov_y);
+            Projection::Cylindrical { fov_x, .. } => {
+                let height = (1.0 - 2.0 * place.y / self.size.y) * self.half_height;
                 Some(through(self.turn(place.x, f64::from(fov_x)).with_y(height)))
             }
         }
@@ -70,11 +79,12 @@ impl Picture {
     /// are parallel.
     pub(super) fn pixels_per_slope(&self) -> f64 {
         match self.projection {
-            Projection::Perspective { fov_y } => 0.5 * self.size.y / half_tan(fov_y),
+            Projection::Perspective { .. } | Projection::Cylindrical { .. } => {
+                0.5 * self.size.y / self.half_height
+            }
             Projection::Orthographic { height } => self.size.y / f64::from(height),
             Projection::Fisheye { fov } => self.size.min_element() / f64::from(fov),
             Projection::Panorama => self.size.y / PI,
-            Projection::Cylindrical { fov_y, .. } => 0.5 * self.size.y / half_tan(fov_y),
         }
     }
 
@@ -85,12 +95,7 @@ impl Picture {
 
     /// The scale of a flat picture: metres in x and y, at depth 1 or at any depth, from the centre to the border.
     pub(super) fn half_extent(&self) -> Option<DVec2> {
-        let half_height = match self.projection {
-            Projection::Perspective { fov_y } => half_tan(fov_y),
-            Projection::Orthographic { height } => 0.5 * f64::from(height),
-            _ => return None,
-        };
-        Some(DVec2::new(half_height * self.size.x / self.size.y, half_height))
+        self.is_flat().then(|| DVec2::new(self.half_height * self.size.x / self.size.y, self.half_height))
     }
 
     /// From the centre, x to the right and y up, in halves of the height.
@@ -118,11 +123,6 @@ impl Picture {
         let (sin, cos) = sin_cos_of_turns(turns);
         DVec3::new(sin, 0.0, -cos)
     }
-}
-
-/// Tangent of half an angle.
-fn half_tan(fov: f32) -> f64 {
-    (0.5 * f64::from(fov)).tan()
 }
 
 /// Sine and cosine of an angle in turns, the same for all whole turns more and exact on the axes.
