@@ -8,6 +8,7 @@ use crate::integrator::FirstHit;
 use glam::{Vec2, Vec3};
 use heliostat_scene::Rgb;
 use heliostat_scene::settings::PixelRect;
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use std::ops::Range;
 
 /// Side of a tile in pixels.
@@ -137,7 +138,9 @@ impl Shot {
 impl Film {
     /// An empty film over `window`.
     pub(crate) fn new(window: PixelRect, filter: &PixelFilter, keep: Keep) -> Self {
-        let tiles = tile_rects(window).map(|rect| Tile::new(rect, keep)).collect();
+        // In parallel: the system hands out memory at its first touch.
+        let rects: Vec<_> = tile_rects(window).collect();
+        let tiles = rects.into_par_iter().map(|rect| Tile::new(rect, keep)).collect();
         Self { window, tiles, keep, masses: filter.masses() }
     }
 

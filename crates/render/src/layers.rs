@@ -17,6 +17,7 @@
 use crate::film::{Film, Nearest, Tile};
 use heliostat_scene::frame::{Channel, Depth};
 use heliostat_scene::settings::{Layers, PixelRect};
+use rayon::iter::{IntoParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 /// A film's pixels, row by row over a window.
 #[derive(Clone, Debug)]
@@ -25,21 +26,29 @@ pub(crate) struct Raster<T> {
     pub(crate) pixels: Vec<T>,
 }
 
-impl<T: Copy> Raster<T> {
-    /// Reads every pixel of a film.
-    pub(crate) fn of_film(film: &Film, empty: T, pixel: impl Fn(&Tile, usize) -> T) -> Self {
+impl<T: Copy + Send + Sync> Raster<T> {
+    /// Reads every pixel of a film, rows of tiles in parallel.
+    pub(crate) fn of_film(film: &Film, empty: T, pixel: impl Fn(&Tile, usize) -> T + Sync) -> Self {
         let window = film.window();
         let columns = window.width() as usize;
         let mut pixels = vec![empty; columns * window.height() as usize];
-        for tile in film.tiles() {
-            let (width, rect) = (tile.rect.width() as usize, tile.rect);
-            for (row, y) in (rect.y0..rect.y1).enumerate() {
-                let start = (y - window.y0) as usize * columns + (rect.x0 - window.x0) as usize;
-                for (column, place) in pixels[start..start + width].iter_mut().enumerate() {
-                    *place = pixel(tile, row * width + column);
+        let mut rest = pixels.as_mut_slice();
+        let mut bands = Vec::new();
+        for tiles in film.tiles().chunk_by(|a, b| a.rect.y0 == b.rect.y0) {
+            let (band, below) = rest.split_at_mut(columns * tiles[0].rect.height() as usize);
+            bands.push((tiles, band));
+            rest = below;
+        }
+        bands.into_par_iter().for_each(|(tiles, band)| {
+            for tile in tiles {
+                let (width, left) = (tile.rect.width() as usize, (tile.rect.x0 - window.x0) as usize);
+                for (row, line) in band.chunks_mut(columns).enumerate() {
+                    for (column, place) in line[left..left + width].iter_mut().enumerate() {
+                        *place = pixel(tile, row * width + column);
+                    }
                 }
             }
-        }
+        });
         Self { window, pixels }
     }
 
@@ -57,8 +66,8 @@ impl<T: Copy> Raster<T> {
         Self { window, pixels }
     }
 
-    fn channel(&self, name: &str, depth: Depth, value: impl Fn(&T) -> f32) -> Channel {
-        Channel { name: name.to_owned(), depth, values: self.pixels.iter().map(value).collect() }
+    fn channel(&self, name: &str, depth: Depth, value: impl Fn(&T) -> f32 + Sync + Send) -> Channel {
+        Channel { name: name.to_owned(), depth, values: self.pixels.par_iter().map(value).collect() }
     }
 }
 

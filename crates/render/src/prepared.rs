@@ -107,7 +107,7 @@ impl<'s> Prepared<'s> {
 
     /// An empty film for this picture.
     pub fn film(&self) -> Film {
-        self.plan.film()
+        self.pool.install(|| self.plan.film())
     }
 
     /// Adds the samples of the range to every pixel that does not hold them yet.
