@@ -19,13 +19,21 @@ pub(crate) fn map_in_order<T: Sync, R: Send>(
     if threads <= 1 {
         return items.iter().map(task).collect();
     }
-    let share = |items: &[T]| items.iter().map(&task).collect::<Vec<_>>();
+    // Item by item in turn, so that heavy items that lie side by side are shared.
+    let share = |first: usize| items.iter().skip(first).step_by(threads).map(&task).collect::<Vec<_>>();
     scope(|scope| {
-        let shares = items.chunks(items.len().div_ceil(threads));
-        let workers: Vec<_> = shares.map(|items| scope.spawn(|| share(items))).collect();
+        let workers: Vec<_> = (0..threads)
+            .map(|first| {
+                scope.spawn({
+                    let share = &share;
+                    move || share(first)
+                })
+            })
+            .collect();
         let join =
             |worker: ScopedJoinHandle<'_, Vec<R>>| worker.join().unwrap_or_else(|panic| resume_unwind(panic));
-        workers.into_iter().flat_map(join).collect()
+        let mut shares: Vec<_> = workers.into_iter().map(|worker| join(worker).into_iter()).collect();
+        (0..items.len()).filter_map(|i| shares[i % threads].next()).collect()
     })
 }
 

@@ -101,23 +101,44 @@ impl Picture {
 
     /// A layer of a frame; channels that are missing are 0, a missing alpha is 1.
     pub fn of_layer(frame: &Frame, layer: &Layer) -> Self {
-        let values = |name: &String| frame.channel(name).map(|c| c.values.as_slice());
-        let color: Vec<_> = layer.color.iter().map(values).collect();
-        let alpha = layer.alpha.as_ref().and_then(values);
-        let pixel = |i: usize| {
-            let at = |c: usize| color.get(c).copied().flatten().map_or(0.0, |v| v[i]);
-            let rgb = if color.len() == 1 { Vec3::splat(at(0)) } else { Vec3::new(at(0), at(1), at(2)) };
-            rgb.extend(alpha.map_or(1.0, |v| v[i]))
-        };
-        let (width, window) = (frame.width as usize, frame.window);
-        let mut pixels = vec![Vec4::ZERO; width * frame.height as usize];
-        for row in 0..window.height() as usize {
-            let first = (window.y0 as usize + row) * width + window.x0 as usize;
-            let source = row * window.width() as usize;
-            let line = &mut pixels[first..first + window.width() as usize];
-            line.iter_mut().enumerate().for_each(|(x, out)| *out = pixel(source + x));
-        }
+        let rows = Rows::new(frame, layer);
+        let mut pixels = vec![Vec4::ZERO; frame.width as usize * frame.height as usize];
+        (0..).zip(pixels.chunks_mut(frame.width as usize)).for_each(|(y, row)| rows.read(y, row));
         Self { width: frame.width, height: frame.height, pixels }
+    }
+}
+
+/// The pixels of a [`Picture`] row by row, for whoever does not need all of them at once.
+pub(crate) struct Rows<'a> {
+    frame: &'a Frame,
+    color: Vec<Option<&'a [f32]>>,
+    alpha: Option<&'a [f32]>,
+}
+
+impl<'a> Rows<'a> {
+    pub(crate) fn new(frame: &'a Frame, layer: &Layer) -> Self {
+        let values = |name: &String| frame.channel(name).map(|c| c.values.as_slice());
+        Self {
+            frame,
+            color: layer.color.iter().map(values).collect(),
+            alpha: layer.alpha.as_ref().and_then(values),
+        }
+    }
+
+    /// Writes row `y` of the whole picture over `row`, which is as long as the picture is wide and zero.
+    pub(crate) fn read(&self, y: u32, row: &mut [Vec4]) {
+        let window = self.frame.window;
+        if !(window.y0..window.y1).contains(&y) {
+            return;
+        }
+        let first = (y - window.y0) as usize * window.width() as usize;
+        let inside = &mut row[window.x0 as usize..window.x1 as usize];
+        for (i, out) in (first..).zip(inside) {
+            let at = |c: usize| self.color.get(c).copied().flatten().map_or(0.0, |v| v[i]);
+            let grey = self.color.len() == 1;
+            let rgb = if grey { Vec3::splat(at(0)) } else { Vec3::new(at(0), at(1), at(2)) };
+            *out = rgb.extend(self.alpha.map_or(1.0, |v| v[i]));
+        }
     }
 }
 

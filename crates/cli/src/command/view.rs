@@ -28,7 +28,7 @@ pub(crate) fn run(args: &ViewArgs) -> Result<Exit, Failure> {
     check_writable(&output)?;
     let frame = read_frame(&args.image, &Limits::default())?;
     let view = View { transform: args.view.into(), exposure: args.exposure };
-    let options = PngOptions { bits: png_bits(args.bits), view, layer: args.layer.clone() };
+    let options = PngOptions { bits: png_bits(args.bits), view, layer: args.layer.clone(), threads: 0 };
     let png = encode_png(&frame, &options).map_err(|e| LoadError::new(&args.image, e))?;
     write_atomically(&output, |out| out.write_all(&png))?;
     out::line(format_args!("Saved: '{}'", progress::clean(&output.to_string_lossy())));

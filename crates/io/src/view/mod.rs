@@ -77,12 +77,20 @@ impl View {
     /// The sRGB-encoded colour in `[0, 1]` of linear Rec.709 light (not premultiplied). Negative light counts as
     /// none, NaN too.
     pub fn apply(&self, light: Rgb) -> Rgb {
+        Vec3::from_array(self.form(light).to_array().map(encoded))
+    }
+
+    /// [`View::apply`] before it is encoded: linear display light in `[0, 1]`.
+    pub(crate) fn form(&self, light: Rgb) -> Rgb {
         // The brightest half: beyond it every transform is at its end, and squares of it are finite.
         const BRIGHTEST: f32 = 65504.0;
-        let exposed = light * self.exposure.exp2();
+        let exposed = if self.exposure == 0.0 { light } else { light * self.exposure.exp2() };
         let safe = |v: f32| if v.is_nan() { 0.0 } else { v.clamp(0.0, BRIGHTEST) };
-        let safe = Vec3::from_array(exposed.to_array().map(safe));
-        let display = self.transform.form(safe);
-        Vec3::from_array(display.to_array().map(linear_to_srgb)).clamp(Vec3::ZERO, Vec3::ONE)
+        self.transform.form(Vec3::from_array(exposed.to_array().map(safe)))
     }
+}
+
+/// Linear display light in `[0, 1]`, sRGB-encoded.
+pub(crate) fn encoded(v: f32) -> f32 {
+    linear_to_srgb(v).clamp(0.0, 1.0)
 }

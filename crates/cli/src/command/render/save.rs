@@ -22,10 +22,11 @@ pub(super) struct Style {
 impl Style {
     /// The style of a shot whose flags are applied.
     pub(super) fn new(args: &OutputArgs, shot: &Shot) -> Self {
+        let threads = shot.settings.threads;
         let bits = args.png_bits.unwrap_or_else(|| shot.output.png_bits.count());
         Self {
-            png: PngOptions { bits: png_bits(bits), view: shot.view, ..PngOptions::default() },
-            exr: ExrOptions { compression: args.compression.into(), ..ExrOptions::default() },
+            png: PngOptions { bits: png_bits(bits), view: shot.view, layer: None, threads },
+            exr: ExrOptions { compression: args.compression.into(), threads },
             exr_depth: shot.output.exr_depth,
         }
     }
