@@ -70,6 +70,7 @@ pub mod error;
 pub mod film;
 pub mod filter;
 pub mod integrator;
+mod lanes;
 mod layers;
 mod light;
 mod material_eval;
@@ -84,6 +85,7 @@ mod shading;
 pub mod stats;
 mod texture_eval;
 pub mod world;
+mod world_sphere;
 
 pub use counters::RayCounters;
 pub use error::RenderError;

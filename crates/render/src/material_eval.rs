@@ -42,9 +42,13 @@ impl MaterialEval<'_> {
     /// Phong's numbers; a vertex colour multiplies the ambient and the diffuse one.
     pub(crate) fn phong(&self, phong: &Phong, vertex_color: Option<Rgb>) -> PhongPoint {
         let tint = vertex_color.unwrap_or(Rgb::ONE);
+        // Most textured surfaces have one texture for both.
+        let diffuse = self.pattern(phong.diffuse.texture);
+        let is_shared = phong.ambient.texture == phong.diffuse.texture;
+        let ambient = if is_shared { diffuse } else { self.pattern(phong.ambient.texture) };
         PhongPoint {
-            ambient: tint * self.color(&phong.ambient),
-            diffuse: tint * self.color(&phong.diffuse),
+            ambient: tint * phong.ambient.factor * ambient,
+            diffuse: tint * phong.diffuse.factor * diffuse,
             specular: self.color(&phong.specular),
             shininess: self.float(&phong.shininess).max(0.0),
             emission: self.color(&phong.emission),
@@ -58,10 +62,12 @@ impl MaterialEval<'_> {
 
     /// A colour.
     pub(crate) fn color(&self, input: &ColorInput) -> Rgb {
-        match input.texture {
-            None => input.factor,
-            Some(id) => input.factor * self.texture(id).truncate(),
-        }
+        input.factor * self.pattern(input.texture)
+    }
+
+    /// What a colour is multiplied by.
+    fn pattern(&self, texture: Option<TextureId>) -> Rgb {
+        texture.map_or(Rgb::ONE, |id| self.texture(id).truncate())
     }
 
     /// A number.

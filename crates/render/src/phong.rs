@@ -8,8 +8,8 @@ use crate::material_eval::PhongPoint;
 use glam::Vec3;
 use heliostat_scene::Rgb;
 
-/// `-ln` of the smallest positive `f32`, rounded up: `exp` of anything below its negative is 0.
-const UNDERFLOW: f32 = 104.0;
+/// `ln 2^40`: a highlight ends forty stops below its peak, far below what the eye, or half a float, sees beside it.
+const FORTY_STOPS: f32 = 27.73;
 
 impl PhongPoint {
     /// The radiance towards `view` for one unit of light from `to_light`; all unit vectors, `n` on the side of `view`.
@@ -30,11 +30,17 @@ impl PhongPoint {
     }
 }
 
-/// `max(x, 0)^n` for `x` up to 1, without the work where the result is too small for an `f32`.
+/// `max(x, 0)^n` for `x` up to 1; 0 where that is below 2^-40.
 #[inline]
 pub(crate) fn power(x: f32, n: f32) -> f32 {
+    if is_dark(x, n) { 0.0 } else { x.min(1.0).powf(n) }
+}
+
+/// Whether [`power`] is 0 for `x` and everything below.
+#[inline]
+pub(crate) fn is_dark(x: f32, n: f32) -> bool {
     // ln x <= x - 1, so x^n <= exp(-n (1 - x)).
-    if x <= 0.0 || n * (1.0 - x) > UNDERFLOW { 0.0 } else { x.min(1.0).powf(n) }
+    x <= 0.0 || n * (1.0 - x) > FORTY_STOPS
 }
 
 /// The mirror direction of the unit direction `dir` at a surface with unit normal `n`.
@@ -65,9 +71,11 @@ pub(crate) fn refract(dir: Vec3, n: Vec3, eta: f32) -> Option<Refraction> {
 }
 
 /// The share of unpolarised light that a dielectric surface reflects, by the cosine of the angle at which it arrives.
+#[inline(always)]
 pub(crate) fn fresnel_at(cos_in: f32, eta: f32) -> f32 {
     let sin2_out = eta * eta * (1.0 - cos_in * cos_in).max(0.0);
-    if sin2_out < 1.0 { fresnel(cos_in, (1.0 - sin2_out).sqrt(), eta) } else { 1.0 }
+    let reflected = fresnel(cos_in, (1.0 - sin2_out).max(0.0).sqrt(), eta);
+    if sin2_out < 1.0 { reflected } else { 1.0 }
 }
 
 /// The share of unpolarised light that a dielectric surface reflects, by both cosines.
@@ -75,6 +83,7 @@ pub(crate) fn fresnel_at(cos_in: f32, eta: f32) -> f32 {
 /// # Source
 /// Fresnel's equations, as in Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th edition, section 9.3.5; `eta` is the
 /// index before over the index behind.
+#[inline(always)]
 pub(crate) fn fresnel(cos_in: f32, cos_out: f32, eta: f32) -> f32 {
     let parallel = (cos_in - eta * cos_out) / (cos_in + eta * cos_out);
     let perpendicular = (eta * cos_in - cos_out) / (eta * cos_in + cos_out);

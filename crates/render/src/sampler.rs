@@ -58,7 +58,8 @@ impl Sampler {
 
     /// A point of the unit square `[0, 1)²`; stratified over the samples of the pixel.
     pub fn next_2d(&mut self) -> Vec2 {
-        self.next_scramble().point(self.sample)
+        let scramble = self.next_scramble();
+        scramble.point(scramble.shuffled(self.sample))
     }
 
     /// `n` points of the unit square for the current point of the scene.
@@ -68,7 +69,9 @@ impl Sampler {
     /// 2³² points.
     pub fn array_2d(&mut self, n: u32) -> Points {
         let first = self.sample.wrapping_mul(n);
-        Points { scramble: self.next_scramble(), next: first, left: n }
+        // Points of one block are used together: only the order of whole blocks needs a shuffle.
+        let within = if n.is_power_of_two() { n - 1 } else { 0 };
+        Points { scramble: self.next_scramble(), within, next: first, left: n }
     }
 
     /// The numbers of a branch of the recursion, independent of those of other branches and of this one.
@@ -95,23 +98,39 @@ impl Sampler {
 #[derive(Clone, Debug)]
 pub struct Points {
     scramble: Scramble,
+    /// Bits of an index that are not shuffled.
+    within: u32,
     next: u32,
     left: u32,
 }
 
 impl Points {
-    /// The next points, as many as `lanes` holds, and how many of them still belong to the set.
+    /// The next points, as many as `x` and `y` hold, and how many of them still belong to the set.
     ///
     /// All lanes are worked out alike, so that the compiler can do several at once.
-    #[inline]
-    pub fn next_lanes<const N: usize>(&mut self, lanes: &mut [Vec2; N]) -> usize {
-        for (i, lane) in (0_u32..).zip(lanes.iter_mut()) {
-            *lane = self.scramble.point(self.next.wrapping_add(i));
+    #[inline(always)]
+    pub fn next_lanes<const N: usize>(&mut self, x: &mut [f32; N], y: &mut [f32; N]) -> usize {
+        let mut indices = [0; N];
+        if self.within as usize + 1 >= N && N.is_power_of_two() {
+            let first = self.index(self.next);
+            (0_u32..).zip(&mut indices).for_each(|(i, index)| *index = first | i);
+        } else {
+            (0_u32..).zip(&mut indices).for_each(|(i, index)| *index = self.index(self.next.wrapping_add(i)));
+        }
+        for i in 0..N {
+            let point = self.scramble.point(indices[i]);
+            (x[i], y[i]) = (point.x, point.y);
         }
         let count = N.min(self.left as usize);
         self.next = self.next.wrapping_add(count as u32);
         self.left -= count as u32;
         count
+    }
+
+    /// The place in the sequence of point `i` of the set.
+    #[inline(always)]
+    fn index(&self, i: u32) -> u32 {
+        self.scramble.shuffled(i & !self.within) & !self.within | i & self.within
     }
 }
 
@@ -121,7 +140,7 @@ impl Iterator for Points {
     #[inline]
     fn next(&mut self) -> Option<Vec2> {
         self.left = self.left.checked_sub(1)?;
-        let point = self.scramble.point(self.next);
+        let point = self.scramble.point(self.index(self.next));
         self.next = self.next.wrapping_add(1);
         Some(point)
     }
@@ -142,11 +161,16 @@ struct Scramble {
 }
 
 impl Scramble {
+    /// The place of index `i` after a shuffle in which blocks of 2^k indices stay blocks, so that every such block of samples
+    /// is a (0, k, 2)-net.
+    #[inline(always)]
+    fn shuffled(self, i: u32) -> u32 {
+        owen_scramble_rev(i.reverse_bits(), self.order).reverse_bits()
+    }
+
     /// Point `index` of the sequence.
-    #[inline]
+    #[inline(always)]
     fn point(self, index: u32) -> Vec2 {
-        // Shuffle: blocks of 2^k indices stay blocks, so that every such block of samples is a (0, k, 2)-net.
-        let index = owen_scramble_rev(index.reverse_bits(), self.order).reverse_bits();
         // Scramble: the bits of a Sobol coordinate, reversed, are those of the index times a matrix.
         let x = owen_scramble_rev(index, self.x).reverse_bits();
         let y = owen_scramble_rev(pascal(index), self.y).reverse_bits();

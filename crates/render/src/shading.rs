@@ -113,7 +113,7 @@ impl<'a> ShadingPoint<'a> {
             ns: self.ns,
             view: self.view,
             phong: &self.phong,
-            own: self.surface.object(),
+            casters: world.casters(&start, self.surface.object()),
             time: self.time,
         }
     }

@@ -24,7 +24,7 @@ const GRAPH: &[Allowed] = &[
     Allowed {
         package: RENDER,
         inside: &[GEOMETRY, INDEX, SCENE],
-        outside: &["glam", "rayon", "sobol_burley", "thiserror"],
+        outside: &["glam", "pulp", "rayon", "sobol_burley", "thiserror"],
     },
     Allowed {
         package: IO,

@@ -114,7 +114,7 @@ impl Whitted {
         let dir = branch.passing.ray.dir;
         let way = surface.hit.t * dir.length();
         if let Some(inside) = branch.inside {
-            branch.weight *= (-way * inside.absorption).exp();
+            branch.weight *= left_of(inside.absorption, way);
         }
         let (object, material) = match surface.owner {
             Owner::Object { index, material } => (index, material),
@@ -129,7 +129,7 @@ impl Whitted {
         // A ray that leaves glass it was not known to be in: the camera stands in it, or one thing in another.
         let point = ShadingPoint::new(world, surface, material, dir, time);
         if let (None, Some(absorption)) = (branch.inside, point.left_absorption()) {
-            branch.weight *= (-way * absorption).exp();
+            branch.weight *= left_of(absorption, way);
         }
 
         // Let the ray go on where the surface is cut away.
@@ -214,4 +214,12 @@ impl Whitted {
             found.radiance += branch.weight * background::radiance(&world.scene().background, dir);
         }
     }
+}
+
+/// The share of light that is left after a way through something with an absorption per metre.
+///
+/// # Source
+/// The law of Bouguer, Lambert and Beer.
+fn left_of(absorption: Rgb, way: f32) -> Rgb {
+    if absorption == Rgb::ZERO { Rgb::ONE } else { (-way * absorption).exp() }
 }

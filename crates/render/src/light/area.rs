@@ -2,11 +2,12 @@
 
 use super::emitter::{Emitter, EmitterSample};
 use super::flat::WorldFlat;
-use super::sphere::WorldSphere;
 use super::{LightSample, Target};
+use crate::lanes::{LANES, Lanes, Vec3Lanes};
 use crate::material_eval::MaterialEval;
 use crate::texture_eval::TexturePoint;
 use crate::world::{Hull, Place};
+use crate::world_sphere::WorldSphere;
 use glam::{Vec2, Vec3};
 use heliostat_geometry::shape::Sphere;
 use heliostat_geometry::{Shape, SurfacePoint, Transform};
@@ -54,21 +55,31 @@ pub(super) struct FlatLamp<'a> {
 }
 
 impl FlatLamp<'_> {
-    /// As [`AreaLight::share`], without branches; a share of 0 where nothing arrives.
-    #[inline]
-    pub(super) fn share(&self, way: Vec3) -> (Vec3, f32) {
-        let distance_squared = way.length_squared();
-        let to_light = way / distance_squared.sqrt();
-        let share = match self.falloff {
-            Falloff::None => 1.0,
-            Falloff::InverseSquare => {
-                let cos = -self.flat.normal.dot(to_light);
-                let cos = if self.two_sided { cos.abs() } else { cos };
-                cos * self.flat.area / distance_squared
-            }
-        };
-        // False for the NaN of a point on the lamp itself.
-        (to_light, if share > 0.0 && share < f32::INFINITY { share } else { 0.0 })
+    /// As [`AreaLight::share`], without branches: changes the ways to points of the lamp to unit directions, and gives the
+    /// shares; 0 where nothing arrives. The direction to the point itself is not a number.
+    #[expect(clippy::needless_range_loop, reason = "a lane is a number")]
+    #[inline(always)]
+    pub(super) fn shares(&self, ways: &mut Vec3Lanes) -> Lanes {
+        let mut distance_squared = [0.0; LANES];
+        for i in 0..LANES {
+            let way = ways.get(i);
+            distance_squared[i] = way.length_squared();
+            ways.set(i, way * (1.0 / distance_squared[i].sqrt()));
+        }
+        if self.falloff == Falloff::None {
+            return [1.0; LANES];
+        }
+        let (normal, area) = (self.flat.normal, self.flat.area);
+        let mut shares = [0.0; LANES];
+        (0..LANES).for_each(|i| shares[i] = -normal.dot(ways.get(i)));
+        if self.two_sided {
+            (0..LANES).for_each(|i| shares[i] = shares[i].abs());
+        }
+        for i in 0..LANES {
+            let share = shares[i] * area / distance_squared[i];
+            shares[i] = if (share > 0.0) & (share < f32::INFINITY) { share } else { 0.0 };
+        }
+        shares
     }
 }
 
@@ -157,7 +168,7 @@ impl<'s> AreaLight<'s> {
     /// One point of any surface, uniform by local area.
     fn sample_by_area(&self, p: Vec3, u: Vec2, time: f32) -> Option<LightSample> {
         let sample = self.emitter.sample(u)?;
-        let on_light = self.place.at(time, |transform| transform.sample_to_world(&sample.point))?;
+        let on_light = self.place.now(time)?.sample_to_world(&sample.point);
         let (to_light, share) = self.share(on_light.at.p - p, on_light.at.ng, on_light.pdf.recip())?;
         Some(LightSample {
             to_light,

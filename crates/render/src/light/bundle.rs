@@ -1,93 +1,137 @@
 //! The samples of a flat lamp at one point, several at once.
-//!
-//! What all samples need is worked out in lanes, without branches, so that the compiler does four or eight of them with
-//! one instruction; only where something may stand in between does each lane trace its own ray.
 
 use super::area::FlatLamp;
 use super::direct::LitPoint;
+use crate::lanes::{self, LANES, Lanes, Mask, Vec3Lanes, lanes_of, mask, widest};
 use crate::phong::power;
 use crate::sampler::Points;
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 use heliostat_scene::Rgb;
-
-/// Samples at once.
-pub(super) const LANES: usize = 16;
+use pulp::NullaryFnOnce;
 
 /// Some samples of a flat lamp and what they would send to the viewer if nothing stood in between.
+#[derive(Debug)]
 pub(super) struct Bundle {
     /// Points on the lamp.
-    pub(super) targets: [Vec3; LANES],
-    /// What multiplies the diffuse colour.
-    diffuse: [f32; LANES],
-    /// What multiplies the specular colour.
-    specular: [f32; LANES],
-    /// Lanes that are in use.
-    pub(super) count: usize,
+    pub(super) targets: Vec3Lanes,
+    /// Irradiance on a surface that faces the light per unit of radiance; 0 where none is seen.
+    share: Lanes,
+    /// What multiplies the diffuse colour; 0 in lanes without light.
+    diffuse: Lanes,
+    /// Cosine of the angle between the mirror direction and the viewer; then what multiplies the specular colour; 0 for a
+    /// point that does not shine.
+    specular: Lanes,
+    /// Lanes that have light to lose.
+    pub(super) lit: Mask,
+}
+
+/// The work of [`Bundle::draw`] that is done in lanes: all but the highlights.
+struct Draw<'a> {
+    lamp: &'a FlatLamp<'a>,
+    point: &'a LitPoint<'a>,
+    samples: &'a mut Points,
+    shines: bool,
 }
 
 impl Bundle {
-    /// The next samples.
+    /// The next samples; highlights are left out unless the point `shines`.
     #[inline]
-    pub(super) fn draw(lamp: &FlatLamp<'_>, point: &LitPoint<'_>, samples: &mut Points) -> Self {
-        let mut u = [Vec2::ZERO; LANES];
-        let count = samples.next_lanes(&mut u);
-        let targets = u.map(|u| lamp.flat.point(u));
-        let mut bundle = Self { targets, diffuse: [0.0; LANES], specular: [0.0; LANES], count };
-        let mut highlights = [0.0; LANES];
-        for i in 0..LANES {
-            let (to_light, share) = lamp.share(targets[i] - point.start.p);
-            // Light from behind the surface is not seen, whatever the shading normal says.
-            let geometric = if point.lifted { 1.0 } else { point.start.ng.dot(to_light) };
-            let cos = point.ns.dot(to_light);
-            let is_lit = cos > 0.0 && point.smooth.dot(to_light) > 0.0 && geometric > 0.0;
-            let share = if is_lit { share } else { 0.0 };
-            bundle.diffuse[i] = share * cos;
-            bundle.specular[i] = share;
-            highlights[i] = 2.0 * cos * point.ns.dot(point.view) - to_light.dot(point.view);
+    pub(super) fn draw(
+        lamp: &FlatLamp<'_>,
+        point: &LitPoint<'_>,
+        samples: &mut Points,
+        shines: bool,
+    ) -> Self {
+        let mut bundle = widest(Draw { lamp, point, samples, shines });
+        if shines {
+            bundle.add_highlights(point);
         }
         if point.fades() {
             bundle.fade(point);
         }
-        // What the surface does not answer is not lit, and needs no shadow ray.
-        if point.phong.diffuse == Rgb::ZERO {
-            bundle.diffuse = [0.0; LANES];
-        }
-        if point.phong.specular == Rgb::ZERO {
-            bundle.specular = [0.0; LANES];
-        } else {
-            for (specular, highlight) in bundle.specular.iter_mut().zip(highlights) {
-                *specular *= if *specular > 0.0 { power(highlight, point.phong.shininess) } else { 0.0 };
-            }
-        }
         bundle
+    }
+
+    #[inline]
+    fn add_highlights(&mut self, point: &LitPoint<'_>) {
+        for i in 0..LANES {
+            let is_seen = self.share[i] > 0.0;
+            self.specular[i] = if is_seen { power(self.specular[i], point.phong.shininess) } else { 0.0 };
+        }
+        (0..LANES).for_each(|i| self.specular[i] *= self.share[i]);
+        self.lit |= mask(|i| self.specular[i] > 0.0);
     }
 
     /// Weakens the light where the point says so.
     #[cold]
     fn fade(&mut self, point: &LitPoint<'_>) {
-        for (i, target) in self.targets.iter().enumerate() {
-            let share = point.facing((target - point.start.p).normalize_or_zero());
+        for i in lanes_of(self.lit) {
+            let share = point.facing((self.targets.get(i) - point.start.p).normalize_or_zero());
             self.diffuse[i] *= share;
             self.specular[i] *= share;
         }
+        self.lit = mask(|i| self.diffuse[i] > 0.0 || self.specular[i] > 0.0);
     }
 
-    /// Whether a lane has light to lose.
+    /// The sum over all lanes of what is sent to the viewer for one unit of radiance.
     #[inline]
-    pub(super) fn is_lit(&self, lane: usize) -> bool {
-        self.diffuse[lane] > 0.0 || self.specular[lane] > 0.0
+    pub(super) fn answer(&self, point: &LitPoint<'_>) -> Rgb {
+        let diffuse = lanes::sum(self.diffuse) * point.phong.diffuse;
+        if point.phong.specular == Rgb::ZERO {
+            return diffuse;
+        }
+        diffuse + lanes::sum(self.specular) * point.phong.specular
     }
 
-    /// What a lane sends to the viewer for one unit of radiance.
+    /// [`Bundle::answer`] of what a share of the light makes.
     #[inline]
-    pub(super) fn answer(&self, lane: usize, point: &LitPoint<'_>) -> Rgb {
-        self.diffuse[lane] * point.phong.diffuse + self.specular[lane] * point.phong.specular
+    pub(super) fn answer_to(&self, shares: &Vec3Lanes, point: &LitPoint<'_>) -> Rgb {
+        let sum = |answer: &Lanes| {
+            let channel = |share: &Lanes| lanes::sum(std::array::from_fn(|i| answer[i] * share[i]));
+            Vec3::new(channel(&shares.x), channel(&shares.y), channel(&shares.z))
+        };
+        let diffuse = sum(&self.diffuse) * point.phong.diffuse;
+        if point.phong.specular == Rgb::ZERO {
+            return diffuse;
+        }
+        diffuse + sum(&self.specular) * point.phong.specular
     }
+}
 
-    /// The sum over all lanes.
-    #[inline]
-    pub(super) fn whole_answer(&self, point: &LitPoint<'_>) -> Rgb {
-        let sum = |lanes: &[f32; LANES]| lanes[..self.count].iter().sum::<f32>();
-        sum(&self.diffuse) * point.phong.diffuse + sum(&self.specular) * point.phong.specular
+impl NullaryFnOnce for Draw<'_> {
+    type Output = Bundle;
+
+    #[inline(always)]
+    fn call(self) -> Bundle {
+        let Self { lamp, point, samples, shines } = self;
+        let (mut u, mut v) = ([0.0; LANES], [0.0; LANES]);
+        let count = samples.next_lanes(&mut u, &mut v) as u32;
+        let targets = lamp.flat.points(&u, &v);
+        let start = point.start.p;
+        let mut to_light = Vec3Lanes::splat(Vec3::ZERO);
+        (0..LANES).for_each(|i| to_light.set(i, targets.get(i) - start));
+        let arriving = lamp.shares(&mut to_light);
+
+        let (ns, smooth, view) = (point.ns, point.smooth, point.view);
+        // Light from behind the surface is not seen, whatever the shading normal says.
+        let facet = if point.lifted { smooth } else { point.start.ng };
+        let view_cos = 2.0 * ns.dot(view);
+        let answers = if point.phong.diffuse == Rgb::ZERO { 0.0 } else { 1.0 };
+        let (mut share, mut diffuse, mut specular) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        for i in 0..LANES {
+            let to_light = to_light.get(i);
+            let cos = ns.dot(to_light);
+            let is_above = (cos > 0.0) & (smooth.dot(to_light) > 0.0) & (facet.dot(to_light) > 0.0);
+            let is_seen = is_above & ((i as u32) < count);
+            share[i] = if is_seen { arriving[i] } else { 0.0 };
+            // What the surface does not answer is not lit, and needs no shadow ray.
+            diffuse[i] = if is_seen { answers * arriving[i] * cos } else { 0.0 };
+            specular[i] = cos * view_cos - to_light.dot(view);
+        }
+        if !shines {
+            specular = [0.0; LANES];
+        }
+        let lit = mask(|i| diffuse[i] > 0.0);
+        Bundle { targets, share, diffuse, specular, lit }
     }
 }

@@ -5,8 +5,9 @@ use super::bundle::Bundle;
 use super::{PreparedLight, Target};
 use crate::counters::RayCounters;
 use crate::material_eval::PhongPoint;
+use crate::phong::{is_dark, reflect};
 use crate::sampler::{Points, Sampler};
-use crate::world::{Candidates, World};
+use crate::world::{Candidates, Hull, ShadowRays, World};
 use glam::{Vec2, Vec3};
 use heliostat_geometry::{Departure, SurfacePoint};
 use heliostat_scene::Rgb;
@@ -28,8 +29,8 @@ pub(crate) struct LitPoint<'a> {
     pub(crate) view: Vec3,
     /// The surface.
     pub(crate) phong: &'a PhongPoint,
-    /// The object that the point is on.
-    pub(crate) own: Option<u32>,
+    /// What may throw a shadow on it.
+    pub(crate) casters: Candidates,
     /// Over the shutter.
     pub(crate) time: f32,
 }
@@ -48,7 +49,7 @@ pub(crate) fn lighting(
     for light in world.lights() {
         sum += if light.samples == 1 {
             let u = if light.is_extended { sampler.next_2d() } else { Vec2::ZERO };
-            from_sample(world, light, point, u, Candidates::All, counters)
+            from_sample(world, light, point, u, point.casters, counters)
         } else {
             let samples = sampler.array_2d(light.samples);
             from_samples(world, light, point, samples, counters)
@@ -67,13 +68,18 @@ fn from_samples(
     counters: &mut RayCounters,
 ) -> Rgb {
     // Ask once for all samples what they have in common.
-    let blockers = match light.hull(point.start.p, world.bounds()) {
+    let hull = light.hull(point.start.p, world.bounds());
+    let shines = point.phong.specular != Rgb::ZERO && hull.as_ref().is_none_or(|hull| point.may_mirror(hull));
+    if point.phong.diffuse == Rgb::ZERO && !shines {
+        return Rgb::ZERO;
+    }
+    let blockers = match &hull {
         Some(hull) if hull.is_behind(point.start.p, point.smooth) => return Rgb::ZERO,
-        Some(hull) => world.blockers(&point.start, point.own, hull),
-        None => Candidates::All,
+        Some(hull) => world.blockers(&point.start, point.casters, hull),
+        None => point.casters,
     };
     let sum: Rgb = match light.flat_lamp() {
-        Some(lamp) => from_flat_lamp(world, &lamp, point, samples, blockers, counters),
+        Some(lamp) => from_flat_lamp(world, &lamp, point, samples, shines, blockers, counters),
         None => samples.map(|u| from_sample(world, light, point, u, blockers, counters)).sum(),
     };
     sum / light.samples as f32
@@ -85,22 +91,22 @@ fn from_flat_lamp(
     lamp: &FlatLamp<'_>,
     point: &LitPoint<'_>,
     mut samples: Points,
+    shines: bool,
     blockers: Candidates,
     counters: &mut RayCounters,
 ) -> Rgb {
     let mut sum = Rgb::ZERO;
     while samples.len() > 0 {
-        let bundle = Bundle::draw(lamp, point, &mut samples);
-        if blockers.are_none() {
-            sum += bundle.whole_answer(point);
+        let bundle = Bundle::draw(lamp, point, &mut samples, shines);
+        if blockers.are_none() || bundle.lit == 0 {
+            sum += bundle.answer(point);
             continue;
         }
-        // Trace a shadow ray only where there is something to lose.
-        for lane in (0..bundle.count).filter(|&lane| bundle.is_lit(lane)) {
-            counters.shadow += 1;
-            let ray = point.departure.spawn_to(bundle.targets[lane]);
-            sum += bundle.answer(lane, point) * world.transmittance_past(&ray, point.time, blockers);
-        }
+        // Trace shadow rays only where there is something to lose.
+        counters.shadow += u64::from(bundle.lit.count_ones());
+        let (start, targets, wanted) = (point.departure, &bundle.targets, bundle.lit);
+        let rays = ShadowRays { start, targets, reach: lamp.flat.reach(start.origin()), wanted };
+        sum += bundle.answer_to(&world.transmittances(&rays, point.time, blockers), point);
     }
     sum * lamp.radiance
 }
@@ -140,6 +146,12 @@ fn from_sample(
 }
 
 impl LitPoint<'_> {
+    /// Whether any highlight of a light in that hull is seen.
+    fn may_mirror(&self, light: &Hull) -> bool {
+        let mirror_dir = reflect(-self.view, self.ns);
+        !is_dark(light.nearest_cosine(self.start.p, mirror_dir), self.phong.shininess)
+    }
+
     /// Whether light fades out towards the side of a facet: the smooth surface is another one, and lies below.
     pub(super) fn fades(&self) -> bool {
         !self.lifted && self.start.ng != self.smooth

@@ -1,6 +1,7 @@
 //! Points on flat lamps that stand still: rectangles and disks, with everything that is the same for all points worked
 //! out once.
 
+use crate::lanes::{LANES, Lanes, Vec3Lanes};
 use glam::{DVec2, DVec3, Vec2, Vec3};
 use heliostat_geometry::warp::square_to_disk;
 use heliostat_geometry::{Shape, Transform};
@@ -39,6 +40,25 @@ impl WorldFlat {
             normal: transform.normal(Vec3::Y),
             area,
         })
+    }
+
+    /// How far its points lie from `p`, per axis, at most; to a few roundings.
+    #[inline]
+    pub(super) fn reach(&self, p: Vec3) -> Vec3 {
+        (self.centre - p).abs() + self.x.abs() + self.z.abs()
+    }
+
+    /// A point for each lane; see [`WorldFlat::point`].
+    #[inline(always)]
+    pub(super) fn points(&self, u: &Lanes, v: &Lanes) -> Vec3Lanes {
+        let mut points = Vec3Lanes::splat(self.centre);
+        let (centre, x, z, is_disk) = (self.centre, self.x, self.z, self.is_disk);
+        for i in 0..LANES {
+            let u = Vec2::new(u[i], v[i]);
+            let local = if is_disk { square_to_disk(u) } else { 2.0 * u - Vec2::ONE };
+            points.set(i, centre + local.x * x + local.y * z);
+        }
+        points
     }
 
     /// A point uniform by area.

@@ -18,6 +18,7 @@ use glam::{Vec2, Vec3};
 use heliostat_geometry::{Aabb, SurfacePoint};
 use heliostat_scene::light::LightKind;
 use heliostat_scene::{Light, Rgb, Scene};
+use std::borrow::Cow;
 
 /// Shadow rays per point towards an object whose material shines.
 const SHINING_OBJECT_SAMPLES: u32 = 16;
@@ -78,11 +79,12 @@ impl<'s> PreparedLight<'s> {
     /// A hull around all points that light comes from, as seen from `p` in a scene around which lies the box `scene`.
     ///
     /// `None` where no finite one holds them.
-    pub(crate) fn hull(&self, p: Vec3, scene: Aabb) -> Option<Hull> {
+    #[inline]
+    pub(crate) fn hull(&self, p: Vec3, scene: Aabb) -> Option<Cow<'_, Hull>> {
         match &self.source {
             Source::Point(_) => None,
-            Source::Directional(light) => light.bounds(p, scene).map(Hull::of_box),
-            Source::Area(_) => self.surface,
+            Source::Directional(light) => light.bounds(p, scene).map(Hull::of_box).map(Cow::Owned),
+            Source::Area(_) => self.surface.as_ref().map(Cow::Borrowed),
         }
     }
 

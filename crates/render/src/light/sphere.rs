@@ -4,17 +4,11 @@
 //! Shirley, Wang, Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", TOG 1996; the point on the sphere
 //! as in Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th edition, section 6.2.4.
 
+use crate::world_sphere::WorldSphere;
 use glam::{DVec3, Vec2, Vec3};
+use heliostat_geometry::OrthonormalFrame;
 use heliostat_geometry::warp::square_to_disk;
-use heliostat_geometry::{OrthonormalFrame, Transform};
 use std::f64::consts::TAU;
-
-/// A sphere in world space.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct WorldSphere {
-    pub(super) centre: DVec3,
-    pub(super) radius: f64,
-}
 
 /// A direction to a sphere.
 #[derive(Clone, Copy, Debug)]
@@ -28,18 +22,6 @@ pub(super) struct SphereSample {
 }
 
 impl WorldSphere {
-    /// The image of a sphere of radius `radius` around the origin; `None` unless the map keeps it round.
-    pub(super) fn new(radius: f32, transform: &Transform) -> Option<Self> {
-        let m = transform.matrix();
-        let (x, y, z) = (m.matrix3.x_axis, m.matrix3.y_axis, m.matrix3.z_axis);
-        let scale = x.length();
-        let round = heliostat_geometry::error_bound::gamma_f64(64) * scale * scale;
-        let same = |v: DVec3| (v.length() - scale).abs() * scale <= round;
-        let right_angles = [x.dot(y), y.dot(z), z.dot(x)].iter().all(|dot| dot.abs() <= round);
-        (same(y) && same(z) && right_angles)
-            .then(|| Self { centre: m.translation, radius: scale * f64::from(radius) })
-    }
-
     /// A direction from `p` uniform over the sphere as seen from there; `None` from inside.
     pub(super) fn sample(&self, p: Vec3, u: Vec2) -> Option<SphereSample> {
         let to_centre = self.centre - p.as_dvec3();

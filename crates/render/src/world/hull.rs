@@ -2,7 +2,7 @@
 
 use super::place::Place;
 use glam::{DVec3, Vec3};
-use heliostat_geometry::error_bound::projection;
+use heliostat_geometry::error_bound::{gamma, projection};
 use heliostat_geometry::{Aabb, Shape, Transform};
 
 /// A parallelepiped, or the ellipsoid inside it.
@@ -13,6 +13,8 @@ pub(crate) struct Hull {
     edges: [Vec3; 3],
     /// Whether the ellipsoid is meant.
     is_round: bool,
+    /// Of a sphere around its centre that holds it, to a few roundings.
+    pub(super) radius: f32,
 }
 
 impl Hull {
@@ -20,8 +22,7 @@ impl Hull {
     pub(crate) fn of_box(bounds: Aabb) -> Self {
         let centre = bounds.centre();
         let half = (bounds.max - centre).max(centre - bounds.min);
-        let edges = [Vec3::X * half.x, Vec3::Y * half.y, Vec3::Z * half.z];
-        Self { centre, edges, is_round: false }
+        Self::around(centre, [Vec3::X * half.x, Vec3::Y * half.y, Vec3::Z * half.z], false)
     }
 
     /// Around the image of a shape, or of a thing with the box `local`; around all of its ways if it moves.
@@ -39,11 +40,33 @@ impl Hull {
         // A disk lies in its rectangle as an ellipsoid does, with no height.
         let is_round = matches!(shape, Some(Shape::Sphere(_) | Shape::Disk(_)));
         let edge = |column: DVec3, length: f64| (length * column).as_vec3();
-        Self {
-            centre: transform.matrix().transform_point3(centre).as_vec3(),
-            edges: [edge(linear.x_axis, half.x), edge(linear.y_axis, half.y), edge(linear.z_axis, half.z)],
-            is_round,
+        let centre = transform.matrix().transform_point3(centre).as_vec3();
+        let edges = [edge(linear.x_axis, half.x), edge(linear.y_axis, half.y), edge(linear.z_axis, half.z)];
+        Self::around(centre, edges, is_round)
+    }
+
+    fn around(centre: Vec3, edges: [Vec3; 3], is_round: bool) -> Self {
+        let [a, b, c] = edges;
+        // The farthest corner; its opposite lies equally far out.
+        let corners = [a + b + c, a + b - c, a - b + c, a - b - c];
+        let radius = corners.into_iter().map(Vec3::length).fold(0.0, f32::max);
+        Self { centre, edges, is_round, radius }
+    }
+
+    /// The largest cosine between the unit vector `axis` and a direction from `p` to the hull; rounded up.
+    pub(crate) fn nearest_cosine(&self, p: Vec3, axis: Vec3) -> f32 {
+        let way = self.centre - p;
+        let distance = way.length();
+        let sin_radius = self.radius / distance;
+        let cos = axis.dot(way) / distance;
+        let cos_radius = (1.0 - sin_radius * sin_radius).sqrt();
+        // False for a NaN, from a point inside.
+        let is_outside = cos < cos_radius;
+        if !is_outside {
+            return 1.0;
         }
+        // The cosine of the angle to the centre less that of the radius.
+        cos * cos_radius + (1.0 - cos * cos).max(0.0).sqrt() * sin_radius + gamma(64)
     }
 
     /// Whether all of it lies behind the plane through `p` with normal `n`.

@@ -1,6 +1,6 @@
 //! The upper level: which of the things in the world a ray may meet.
 
-use super::slabs::Slabs;
+use super::bound::Bound;
 use super::solid::Solid;
 use heliostat_geometry::{Aabb, Ray};
 use heliostat_index::{BspTree, BuildError, BuildParams, Found, RayIndex, TraversalCost};
@@ -16,11 +16,11 @@ const MANY: usize = u64::BITS as usize;
 pub(super) struct Level {
     /// Index into the solids for each box, ascending; empty meshes are left out.
     ids: Vec<u32>,
-    boxes: Vec<Aabb>,
+    bounds: Vec<Bound>,
     /// Where there are more than a few.
     tree: Option<BspTree>,
     /// The box around all finite boxes.
-    bounds: Aabb,
+    whole: Aabb,
 }
 
 /// A set of boxes of a [`Level`] that may be met: one bit for each, or all.
@@ -33,6 +33,15 @@ pub(crate) enum Candidates {
 }
 
 impl Candidates {
+    /// Those in both sets.
+    #[inline]
+    pub(super) fn among(self, others: Self) -> Self {
+        match (self, others) {
+            (Self::Some(a), Self::Some(b)) => Self::Some(a & b),
+            (Self::All, set) | (set, Self::All) => set,
+        }
+    }
+
     /// Whether it is known that nothing is met.
     pub(crate) fn are_none(self) -> bool {
         matches!(self, Self::Some(0))
@@ -45,24 +54,26 @@ impl Level {
     /// # Errors
     /// When a solid has no place in space: the error names it by its index.
     pub(super) fn new(solids: &[Solid<'_>]) -> Result<Self, BuildError> {
-        let (mut ids, mut boxes) = (Vec::new(), Vec::new());
-        for (id, bounds) in (0..).zip(solids.iter().map(|solid| solid.bounds)) {
-            if bounds.min.is_nan() || bounds.max.is_nan() {
-                return Err(BuildError::Bounds { primitive: id, bounds });
+        let (mut ids, mut boxes, mut bounds) = (Vec::new(), Vec::new(), Vec::new());
+        for (id, solid) in (0..).zip(solids) {
+            let around = solid.bounds;
+            if around.min.is_nan() || around.max.is_nan() {
+                return Err(BuildError::Bounds { primitive: id, bounds: around });
             }
-            if !bounds.is_empty() {
+            if !around.is_empty() {
                 ids.push(id);
-                boxes.push(bounds);
+                boxes.push(around);
+                bounds.push(Bound::new(solid));
             }
         }
         let tree = if boxes.len() > FEW { Some(BspTree::build(&boxes, &BuildParams::SAH)?) } else { None };
-        let bounds = boxes.iter().filter(|b| b.is_finite()).fold(Aabb::EMPTY, |all, &b| all.union(b));
-        Ok(Self { ids, boxes, tree, bounds })
+        let whole = boxes.iter().filter(|b| b.is_finite()).fold(Aabb::EMPTY, |all, &b| all.union(b));
+        Ok(Self { ids, bounds, tree, whole })
     }
 
     /// The box around everything finite; empty when there is nothing.
     pub(super) fn bounds(&self) -> Aabb {
-        self.bounds
+        self.whole
     }
 
     /// The tree, where there is one.
@@ -103,11 +114,10 @@ impl Level {
         ray: &Ray,
         mut hit: impl FnMut(u32, &Ray) -> Option<(f32, T)>,
     ) -> Option<Found<T>> {
-        let slabs = Slabs::new(ray);
         let mut search = *ray;
         let mut nearest: Option<Found<T>> = None;
-        for (&primitive, bounds) in self.ids.iter().zip(&self.boxes) {
-            if slabs.may_meet(&search, bounds)
+        for (&primitive, bound) in self.ids.iter().zip(&self.bounds) {
+            if bound.may_meet(&search)
                 && let Some((t, data)) = hit(primitive, &search)
                 // Ids ascend: of two at the same distance the lower one is there already.
                 && nearest.as_ref().is_none_or(|nearest| t < nearest.t)
@@ -119,13 +129,34 @@ impl Level {
         nearest
     }
 
-    /// The boxes of the solids that count.
-    pub(super) fn candidates(&self, mut counts: impl FnMut(u32) -> bool) -> Candidates {
-        if self.boxes.len() > MANY {
-            return Candidates::All;
-        }
-        let set = self.ids.iter().enumerate().filter(|&(_, &id)| counts(id));
-        Candidates::Some(set.fold(0, |set, (bit, _)| set | 1 << bit))
+    /// The solids that count.
+    pub(super) fn candidates(&self, counts: impl FnMut(u32) -> bool) -> Candidates {
+        let all = if self.bounds.len() > MANY {
+            Candidates::All
+        } else {
+            Candidates::Some(low_bits(self.ids.len()))
+        };
+        self.narrow(all, counts)
+    }
+
+    /// Those of the candidates that count.
+    #[inline]
+    pub(super) fn narrow(&self, candidates: Candidates, mut counts: impl FnMut(u32) -> bool) -> Candidates {
+        let Candidates::Some(set) = candidates else { return candidates };
+        let counting = bits(set).filter(|&i| counts(self.ids[i]));
+        Candidates::Some(counting.fold(0, |counting, i| counting | 1 << i))
+    }
+
+    /// The candidates, ascending, where they are so few that each is asked by itself.
+    #[inline]
+    pub(super) fn few(&self, candidates: Candidates) -> Option<impl Iterator<Item = u32>> {
+        Some(bits(self.few_bits(candidates)?).map(|i| self.ids[i]))
+    }
+
+    #[inline]
+    fn few_bits(&self, candidates: Candidates) -> Option<u64> {
+        let Candidates::Some(set) = candidates else { return None };
+        (self.tree.is_none() || set.count_ones() as usize <= FEW).then_some(set)
     }
 
     /// See [`RayIndex::any_hit`], among the candidates.
@@ -136,35 +167,35 @@ impl Level {
         candidates: Candidates,
         mut hit: impl FnMut(u32, &Ray) -> bool,
     ) -> bool {
-        match (candidates, &self.tree) {
-            (Candidates::Some(0), _) => false,
-            (Candidates::Some(set), tree) if tree.is_none() || set.count_ones() as usize <= FEW => {
-                // They are near the ray by their hulls: boxes would tell little more.
-                bits(set).any(|i| hit(self.ids[i], ray))
-            }
-            (_, Some(tree)) => tree.any_hit(ray, |i, ray| hit(self.ids[i as usize], ray)),
-            (_, None) => {
-                let slabs = Slabs::new(ray);
-                self.ids
-                    .iter()
-                    .zip(&self.boxes)
-                    .any(|(&id, bounds)| slabs.may_meet(ray, bounds) && hit(id, ray))
-            }
+        match (self.few_bits(candidates), &self.tree) {
+            (Some(few), _) => bits(few).any(|i| self.bounds[i].may_meet(ray) && hit(self.ids[i], ray)),
+            (None, Some(tree)) => tree.any_hit(ray, |i, ray| hit(self.ids[i as usize], ray)),
+            // Without a tree there are few, if any.
+            (None, None) => self.ids.iter().any(|&id| hit(id, ray)),
         }
     }
 
-    /// See [`RayIndex::for_each_hit`], among the candidates; in the order of the ids where they are known.
+    /// See [`RayIndex::for_each_hit`], among the candidates; in the order of the ids where there are few.
+    #[inline]
     pub(super) fn each(&self, ray: &Ray, candidates: Candidates, mut visit: impl FnMut(u32)) {
-        match (candidates, &self.tree) {
-            (Candidates::Some(set), _) => bits(set).for_each(|i| visit(self.ids[i])),
-            (Candidates::All, Some(tree)) => tree.for_each_hit(ray, |i| visit(self.ids[i as usize])),
-            (Candidates::All, None) => self.ids.iter().for_each(|&id| visit(id)),
+        match (self.few_bits(candidates), &self.tree) {
+            (Some(few), _) => {
+                bits(few).filter(|&i| self.bounds[i].may_meet(ray)).for_each(|i| visit(self.ids[i]));
+            }
+            (None, Some(tree)) => tree.for_each_hit(ray, |i| visit(self.ids[i as usize])),
+            // Without a tree there are few, if any.
+            (None, None) => self.ids.iter().for_each(|&id| visit(id)),
         }
     }
 }
 
+/// The lowest `n` bits, up to all.
+fn low_bits(n: usize) -> u64 {
+    if n < MANY { (1 << n) - 1 } else { u64::MAX }
+}
+
 /// The places of the bits that are set, ascending.
-fn bits(mut set: u64) -> impl Iterator<Item = usize> {
+fn bits(mut set: u64) -> impl Iterator<Item = usize> + Clone {
     std::iter::from_fn(move || {
         if set == 0 {
             return None;

@@ -4,15 +4,18 @@
 //! boxes of its objects. The visible surfaces of area lights stand beside the objects: rays see them, but they throw
 //! no shadow, so that a bulb does not hide the light inside it.
 
+mod blocker;
+mod bound;
 mod crossing;
 mod error;
+mod filter;
 mod hit;
 mod hull;
 mod level;
 mod place;
 mod shadow;
+mod shadow_rays;
 mod shaft;
-mod slabs;
 mod solid;
 mod terminator;
 mod trees;
@@ -24,6 +27,7 @@ pub use hit::{Owner, SurfaceHit};
 pub(crate) use hull::Hull;
 pub(crate) use level::Candidates;
 pub(crate) use place::Place;
+pub(crate) use shadow_rays::ShadowRays;
 pub use trees::TreeCache;
 
 use crate::light::{LightTable, PreparedLight};
@@ -31,9 +35,10 @@ use heliostat_geometry::{Aabb, Ray};
 use heliostat_index::{BspTree, MeshTree, TraversalCost};
 use heliostat_scene::light::LightKind;
 use heliostat_scene::material::{Material, Surface};
-use heliostat_scene::{Object, RenderSettings, Rgb, Scene};
+use heliostat_scene::settings::Layers;
+use heliostat_scene::{MaterialId, Object, RenderSettings, Rgb, Scene, TextureId};
 use level::Level;
-use solid::{Meeting, Solid, SurfaceAt};
+use solid::{Meeting, Parameters, Solid, SurfaceAt};
 use std::sync::Arc;
 
 /// A scene made ready for rays.
@@ -44,11 +49,17 @@ pub struct World<'s> {
     solids: Vec<Solid<'s>>,
     /// How each solid stops light.
     shadows: Vec<Shadow>,
+    /// Whether the material of each solid, or a layer, looks at surface parameters.
+    parameters: Vec<Parameters>,
     /// Index of the light behind each solid that is not an object.
     shining: Vec<u32>,
     level: Level,
     trees: Vec<Arc<MeshTree>>,
     lights: LightTable<'s>,
+    /// What throws shadows: all of it, what lets nothing through, and the rest.
+    casters: Candidates,
+    stoppers: Candidates,
+    filters: Candidates,
     /// Whether any solid lets light through.
     has_filters: bool,
     /// Whether glass lets light through.
@@ -106,14 +117,22 @@ impl<'s> World<'s> {
         let glass = settings.transparent_shadows;
         let shadows: Vec<_> = scene.objects.iter().map(|object| shadow_of(scene, object, glass)).collect();
         let shadows = [shadows, vec![Shadow::None; shining.len()]].concat();
+        let parameters = scene.objects.iter().map(|object| parameters_of(scene, object, &settings.layers));
+        let parameters = parameters.chain(shining.iter().map(|_| Parameters::Used)).collect();
+        let level = Level::new(&solids).map_err(|source| error::objects(scene, source))?;
+        let of_kind = |kind: Shadow| level.candidates(|i| shadows[i as usize] == kind);
         Ok(Self {
-            level: Level::new(&solids).map_err(|source| error::objects(scene, source))?,
+            casters: level.candidates(|i| shadows[i as usize] != Shadow::None),
+            stoppers: of_kind(Shadow::Solid),
+            filters: of_kind(Shadow::Filter),
+            level,
             lights: LightTable::new(scene),
             has_filters: shadows.contains(&Shadow::Filter),
             all_visible: scene.objects.iter().all(|object| object.visible),
             scene,
             solids,
             shadows,
+            parameters,
             shining,
             trees,
             glass,
@@ -160,25 +179,38 @@ impl<'s> World<'s> {
         cost.leaves += below.leaves;
         cost.tests += below.tests;
         let found = found?;
-        self.surface(found.primitive, ray, time, found.data)
+        self.surface(found.primitive, ray, time, found.data, Parameters::Used)
     }
 
     /// The nearest thing on the way of a ray; invisible objects are left out for the camera.
-    #[inline]
     pub(crate) fn seen(&self, passing: &PassingRay, time: f32, camera: bool) -> Option<Seen> {
+        self.nearest(passing, time, camera, |_| Parameters::Used)
+    }
+
+    #[inline]
+    fn nearest(
+        &self,
+        passing: &PassingRay,
+        time: f32,
+        camera: bool,
+        parameters: impl Fn(u32) -> Parameters,
+    ) -> Option<Seen> {
         let found = self.level.closest(&passing.ray, |i, search| {
             if !self.is_seen(i, camera) {
                 return None;
             }
             self.solids[i as usize].closest(&passing.seen_by(i, search), time)
         })?;
-        let ray = passing.seen_by(found.primitive, &passing.ray);
-        let surface = self.surface(found.primitive, &ray, time, found.data)?;
-        Some(Seen { solid: found.primitive, surface })
+        let solid = found.primitive;
+        let ray = passing.seen_by(solid, &passing.ray);
+        let surface = self.surface(solid, &ray, time, found.data, parameters(solid))?;
+        Some(Seen { solid, surface })
     }
 
     /// [`World::seen`] for a ray that may run through glass: where the surface of the glass and another one lie in the same
     /// place, the ray leaves the glass first, whichever of the two rounding puts in front.
+    ///
+    /// Surface parameters are left out where neither material nor layer looks at them.
     pub(crate) fn seen_inside(
         &self,
         passing: &PassingRay,
@@ -186,20 +218,24 @@ impl<'s> World<'s> {
         time: f32,
         camera: bool,
     ) -> Option<Seen> {
-        let seen = self.seen(passing, time, camera)?;
-        let Some(inside) = inside.filter(|inside| inside.solid != seen.solid) else { return Some(seen) };
-        let exit = self.seen_on(inside.solid, passing, time).filter(|exit| {
-            let ng = exit.surface.hit.at.ng;
-            ng.dot(passing.ray.dir) > 0.0 && coincide(&exit.surface.hit.at, &seen.surface.hit.at)
-        });
-        Some(exit.unwrap_or(seen))
+        let seen = self.nearest(passing, time, camera, |i| self.parameters[i as usize])?;
+        if let Some(inside) = inside.filter(|inside| inside.solid != seen.solid) {
+            let exit = self.seen_on(inside.solid, passing, time).filter(|exit| {
+                let ng = exit.surface.hit.at.ng;
+                ng.dot(passing.ray.dir) > 0.0 && coincide(&exit.surface.hit.at, &seen.surface.hit.at)
+            });
+            if exit.is_some() {
+                return exit;
+            }
+        }
+        Some(seen)
     }
 
     /// The nearest surface of one thing on the way of a ray.
     fn seen_on(&self, solid: u32, passing: &PassingRay, time: f32) -> Option<Seen> {
         let ray = passing.seen_by(solid, &passing.ray);
         let (_, meeting) = self.solids[solid as usize].closest(&ray, time)?;
-        let surface = self.surface(solid, &ray, time, meeting)?;
+        let surface = self.surface(solid, &ray, time, meeting, Parameters::Used)?;
         Some(Seen { solid, surface })
     }
 
@@ -219,9 +255,17 @@ impl<'s> World<'s> {
             || self.scene.objects.get(solid as usize).is_none_or(|object| object.visible)
     }
 
-    fn surface(&self, solid: u32, ray: &Ray, time: f32, meeting: Meeting) -> Option<SurfaceHit> {
+    #[inline]
+    fn surface(
+        &self,
+        solid: u32,
+        ray: &Ray,
+        time: f32,
+        meeting: Meeting,
+        parameters: Parameters,
+    ) -> Option<SurfaceHit> {
         let SurfaceAt { hit, local, slot, color, triangle } =
-            self.solids[solid as usize].surface(ray, time, meeting)?;
+            self.solids[solid as usize].surface(ray, time, meeting, parameters)?;
         let owner = match self.scene.objects.get(solid as usize) {
             Some(object) => Owner::Object { index: solid, material: object.material(slot) },
             None => Owner::Light(self.shining[solid as usize - self.scene.objects.len()]),
@@ -265,4 +309,15 @@ fn shadow_of(scene: &Scene, object: &Object, glass: bool) -> Shadow {
     } else {
         Shadow::Solid
     }
+}
+
+/// Whether anything looks at the surface parameters of an object.
+fn parameters_of(scene: &Scene, object: &Object, layers: &Layers) -> Parameters {
+    let looks = |id: TextureId| scene.textures[id.index()].uses_parameters();
+    let material = |id: &MaterialId| {
+        let material = &scene.materials[id.index()];
+        // A relief bends the normal along the tangents.
+        material.relief.is_some() || material.textures().any(looks)
+    };
+    if layers.uv || object.materials.iter().any(material) { Parameters::Used } else { Parameters::Unused }
 }

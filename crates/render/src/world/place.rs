@@ -2,6 +2,7 @@
 
 use heliostat_geometry::{Aabb, Transform};
 use heliostat_scene::Motion;
+use std::ops::Deref;
 
 /// Where something is over the shutter.
 #[derive(Clone, Copy, Debug)]
@@ -12,20 +13,41 @@ pub(crate) enum Place<'s> {
     Moving(&'s Motion),
 }
 
+/// The transform of a moment.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Now<'s> {
+    /// The same at all times.
+    Still(&'s Transform),
+    /// Interpolated.
+    Moving(Transform),
+}
+
+impl Deref for Now<'_> {
+    type Target = Transform;
+
+    #[inline]
+    fn deref(&self) -> &Transform {
+        match self {
+            Self::Still(transform) => transform,
+            Self::Moving(transform) => transform,
+        }
+    }
+}
+
 impl<'s> Place<'s> {
     /// The place of something that moves so.
     pub(crate) fn of(motion: &'s Motion) -> Self {
         if motion.is_moving() { Self::Moving(motion) } else { Self::Still(motion.first()) }
     }
 
-    /// Looks at the transform of a moment; `None` where the interpolated matrix has no inverse and nothing is seen.
+    /// The transform of a moment; `None` where the interpolated matrix has no inverse and nothing is seen.
     #[inline]
-    pub(crate) fn at<R>(&self, time: f32, look: impl FnOnce(&Transform) -> R) -> Option<R> {
+    pub(crate) fn now(&self, time: f32) -> Option<Now<'s>> {
         match self {
-            Self::Still(transform) => Some(look(transform)),
+            Self::Still(transform) => Some(Now::Still(transform)),
             Self::Moving(motion) => {
                 let (before, after, weight) = motion.around(time);
-                before.lerp(after, weight).map(|transform| look(&transform))
+                before.lerp(after, weight).map(Now::Moving)
             }
         }
     }

@@ -8,32 +8,37 @@
 
 use super::hull::Hull;
 use glam::Vec3;
-use heliostat_geometry::error_bound::projection;
+use heliostat_geometry::error_bound::{gamma, projection};
 
 /// The hull of a point and a light.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shaft {
+pub(super) struct Shaft<'a> {
     start: Vec3,
     /// The point may lie so far away from there.
     start_radius: f32,
-    light: Hull,
+    light: &'a Hull,
     /// From the point to the middle of the light.
     way: Vec3,
     way_squared: f32,
+    way_length: f32,
     /// Where the light begins and ends along `way`, times the length of `way`.
     light_depth: [f32; 2],
     /// Largest coordinates that take part.
     reach: Vec3,
+    /// Where the point may lie, and the rounding of projections of `reach` to unit axes, for spheres.
+    error: f32,
 }
 
-impl Shaft {
+impl<'a> Shaft<'a> {
     /// The hull of a ball around `start` and `light`.
-    pub(super) fn new(start: Vec3, start_radius: f32, light: Hull) -> Self {
+    pub(super) fn new(start: Vec3, start_radius: f32, light: &'a Hull) -> Self {
         let way = light.centre - start;
         let (way_squared, spread) = (way.length_squared(), light.extent(way));
         let light_depth = [way_squared - spread, way_squared + spread];
         let reach = start.abs() + light.reach() + start_radius;
-        Self { start, start_radius, light, way, way_squared, light_depth, reach }
+        let way_length = way_squared.sqrt();
+        let error = start_radius + projection(reach, Vec3::splat(2.0));
+        Self { start, start_radius, light, way, way_squared, way_length, light_depth, reach, error }
     }
 
     /// Whether all of it lies on one side of the plane through `origin` with unit normal `n`.
@@ -45,8 +50,38 @@ impl Shaft {
         (start > error && light > light_error) || (start < -error && light < -light_error)
     }
 
+    /// [`Shaft::may_hold`] for a sphere, which is as wide along every axis.
+    #[inline]
+    pub(super) fn may_hold_sphere(&self, centre: Vec3, radius: f32) -> bool {
+        let offset = centre - self.start;
+        let radius = radius + self.error + gamma(32) * (radius + centre.abs().element_sum());
+
+        // Along the way: behind the point, or behind the light.
+        let (depth, spread) = (offset.dot(self.way), radius * self.way_length);
+        let far = depth + spread;
+        if far < self.light_depth[0].min(0.0) || depth - spread > self.light_depth[1] {
+            return false;
+        }
+
+        // Across the way, straight away from the middle of the shaft.
+        let outward = offset - (depth / self.way_squared) * self.way;
+        let width = self.share(far) * self.light.extent(outward) + radius * outward.length();
+        // False for a NaN, from numbers that overflow: such things are kept.
+        let is_beside = offset.dot(outward).abs() > width;
+        !is_beside
+    }
+
+    /// How wide the shaft is at most up to `far` along the way, as a share of the light: it widens from the point to the light.
+    fn share(&self, far: f32) -> f32 {
+        if (0.0..self.light_depth[0]).contains(&far) { far / self.light_depth[0] } else { 1.0 }
+    }
+
     /// Whether something in `solid` may stand between the point and the light; false only where nothing can.
     pub(super) fn may_hold(&self, solid: &Hull) -> bool {
+        // Most things are far away.
+        if !self.may_hold_sphere(solid.centre, solid.radius) {
+            return false;
+        }
         let (offset, reach) = (solid.centre - self.start, self.reach + solid.reach());
 
         // Along the way: behind the point, or behind the light.
@@ -59,8 +94,8 @@ impl Shaft {
             return false;
         }
 
-        // Across the way: the shaft widens from the point to the light, of which only the part up to `far` counts.
-        let share = if (0.0..self.light_depth[0]).contains(&far) { far / self.light_depth[0] } else { 1.0 };
+        // Across the way.
+        let share = self.share(far);
         let is_beside = |axis: Vec3| {
             let width = share * (self.light.extent(axis) + axis.dot(self.way).abs());
             // False for a NaN, from numbers that overflow: such things are kept.
@@ -109,14 +144,33 @@ mod tests {
             let ray = Ray::new(scale * start, scale * (target - start)).until(1.0);
             prop_assume!(planted.clip(&ray).is_some());
             let light = Aabb { min: scale * light.min, max: scale * light.max };
-            prop_assert!(Shaft::new(scale * start, 0.0, Hull::of_box(light)).may_hold(&Hull::of_box(planted)));
+            prop_assert!(Shaft::new(scale * start, 0.0, &Hull::of_box(light)).may_hold(&Hull::of_box(planted)));
+        }
+
+        #[test]
+        fn a_sphere_that_a_ray_meets_is_never_culled(
+            start in vec3(10.0),
+            light in a_box(12.0),
+            radius in 0.001_f32..3.0,
+            along in 0.0_f32..1.0,
+            corner in prop::array::uniform3(0.0_f32..=1.0),
+            off in vec3(0.577),
+            scale in prop::sample::select(vec![1e-3_f32, 1.0, 1e5]),
+        ) {
+            // Plant a sphere around a point of a ray to a point of the light.
+            let target = light.min + Vec3::from_array(corner) * light.size();
+            let centre = start + along * (target - start) + radius * off;
+            let light = Hull::of_box(Aabb { min: scale * light.min, max: scale * light.max });
+            let shaft = Shaft::new(scale * start, 0.0, &light);
+            prop_assert!(shaft.may_hold_sphere(scale * centre, scale * radius));
         }
     }
 
     #[test]
     fn boxes_beside_behind_and_beyond_are_culled() {
         let light = Aabb { min: Vec3::new(-1.0, 10.0, -1.0), max: Vec3::new(1.0, 10.0, 1.0) };
-        let shaft = Shaft::new(Vec3::ZERO, 0.0, Hull::of_box(light));
+        let light = Hull::of_box(light);
+        let shaft = Shaft::new(Vec3::ZERO, 0.0, &light);
         let unit_box = |x: f32, y: f32, z: f32| {
             let c = Vec3::new(x, y, z);
             Hull::of_box(Aabb { min: c - 0.5, max: c + 0.5 })

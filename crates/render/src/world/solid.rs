@@ -1,7 +1,9 @@
 //! One thing that rays can meet: a geometry at a place.
 
+use super::blocker::{Blocker, Verdict};
 use super::hull::Hull;
 use super::place::Place;
+use super::shadow_rays::ShadowRays;
 use super::shaft::Shaft;
 use glam::Vec3;
 use heliostat_geometry::shape::Root;
@@ -20,6 +22,8 @@ pub(crate) struct Solid<'s> {
     pub(crate) bounds: Aabb,
     /// The same, but closer where it stands still.
     hull: Hull,
+    /// Its test for many rays at once, where it has one.
+    pub(super) blocker: Option<Blocker>,
 }
 
 /// What there is in local space.
@@ -38,6 +42,14 @@ pub(crate) enum Meeting {
     Shape(Root),
     /// On a mesh.
     Mesh(MeshHit),
+}
+
+/// Whether anybody looks at the surface parameters of a hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Parameters {
+    Used,
+    /// They may be left out.
+    Unused,
 }
 
 /// The surface at a meeting.
@@ -73,13 +85,15 @@ impl<'s> Solid<'s> {
             Body::Shape(shape) => (shape.geometry().bounds(), Some(*shape)),
             Body::Mesh { mesh, .. } => (mesh.bounds(), None),
         };
-        Self { body, bounds: place.bounds(local), hull: Hull::new(local, shape, &place), place }
+        let blocker = shape.and_then(|shape| Blocker::new(shape, &place));
+        Self { body, bounds: place.bounds(local), hull: Hull::new(local, shape, &place), blocker, place }
     }
 
     /// The nearest meeting in the range of the ray.
     #[inline]
     pub(crate) fn closest(&self, ray: &Ray, time: f32) -> Option<(f32, Meeting)> {
-        self.place.at(time, |transform| match &self.body {
+        let transform = self.place.now(time)?;
+        match &self.body {
             Body::Shape(shape) => {
                 let root = shape.hit(&transform.local_ray(ray))?;
                 Some((root.t as f32, Meeting::Shape(root)))
@@ -88,7 +102,7 @@ impl<'s> Solid<'s> {
                 let found = tree.closest_hit(mesh, &transform.ray_to_local(ray))?;
                 Some((found.hit.t, Meeting::Mesh(found)))
             }
-        })?
+        }
     }
 
     /// [`Solid::closest`] that adds the work of the mesh tree to `cost`.
@@ -99,43 +113,47 @@ impl<'s> Solid<'s> {
         cost: &mut TraversalCost,
     ) -> Option<(f32, Meeting)> {
         let Body::Mesh { mesh, tree } = &self.body else { return self.closest(ray, time) };
-        self.place.at(time, |transform| {
-            let found = tree.closest_hit_counted(mesh, &transform.ray_to_local(ray), cost)?;
-            Some((found.hit.t, Meeting::Mesh(found)))
-        })?
+        let transform = self.place.now(time)?;
+        let found = tree.closest_hit_counted(mesh, &transform.ray_to_local(ray), cost)?;
+        Some((found.hit.t, Meeting::Mesh(found)))
     }
 
     /// Whether anything lies in the range of the ray.
     #[inline]
     pub(crate) fn blocks(&self, ray: &Ray, time: f32) -> bool {
-        let blocked = self.place.at(time, |transform| match &self.body {
+        self.place.now(time).is_some_and(|transform| match &self.body {
             Body::Shape(shape) => shape.hit(&transform.local_ray(ray)).is_some(),
             Body::Mesh { mesh, tree } => tree.any_hit(mesh, &transform.ray_to_local(ray)),
-        });
-        blocked == Some(true)
+        })
+    }
+
+    /// Which shadow rays meet it.
+    #[inline]
+    pub(super) fn verdict(&self, rays: &ShadowRays<'_>) -> Verdict {
+        self.blocker.map_or(Verdict::DOUBT, |blocker| blocker.verdict(rays))
     }
 
     /// Whether no ray that leaves its surface at `at`, to the side of the normal there, meets it again: a flat or convex
     /// shape, from outside.
     pub(crate) fn is_left_by_rays(&self, at: &SurfacePoint) -> bool {
-        let (Body::Shape(shape), Place::Still(transform)) = (&self.body, self.place) else { return false };
+        let (Body::Shape(shape), Place::Still(_)) = (&self.body, self.place) else { return false };
         match shape {
             Shape::Plane(_) | Shape::Rectangle(_) | Shape::Disk(_) | Shape::Triangle(_) => true,
             Shape::Sphere(_) | Shape::Cuboid(_) | Shape::Cylinder(_) | Shape::Cone(_) => {
                 // The middle of a convex body lies behind all of its outer surface.
-                let middle = transform.point(shape.geometry().bounds().centre());
-                at.ng.dot(at.p - middle) > 0.0
+                at.ng.dot(at.p - self.hull.centre) > 0.0
             }
             Shape::Torus(_) => false,
         }
     }
 
     /// Whether it may meet a shaft.
-    pub(crate) fn may_block(&self, shaft: &Shaft) -> bool {
-        match (&self.body, self.place) {
-            (Body::Shape(Shape::Plane(_)), Place::Still(transform)) => {
-                !shaft.is_beside(transform.point(Vec3::ZERO), transform.normal(Vec3::Y))
+    pub(crate) fn may_block(&self, shaft: &Shaft<'_>) -> bool {
+        match &self.blocker {
+            Some(Blocker::Sphere(sphere)) => {
+                shaft.may_hold_sphere(sphere.centre.as_vec3(), sphere.radius as f32)
             }
+            Some(Blocker::Plane(origin, normal)) => !shaft.is_beside(*origin, *normal),
             _ => !self.bounds.is_finite() || shaft.may_hold(&self.hull),
         }
     }
@@ -146,15 +164,15 @@ impl<'s> Solid<'s> {
             Body::Shape(_) => {
                 let mut rest = *ray;
                 while let Some((t, meeting)) = self.closest(&rest, time) {
-                    self.surface(&rest, time, meeting).into_iter().for_each(&mut visit);
+                    self.surface(&rest, time, meeting, Parameters::Used).into_iter().for_each(&mut visit);
                     rest.range.min = t.next_up();
                 }
             }
             Body::Mesh { mesh, tree } => {
-                self.place.at(time, |transform| {
-                    tree.for_each_hit(mesh, &transform.ray_to_local(ray), |found| {
-                        self.surface(ray, time, Meeting::Mesh(found)).into_iter().for_each(&mut visit);
-                    });
+                let Some(transform) = self.place.now(time) else { return };
+                tree.for_each_hit(mesh, &transform.ray_to_local(ray), |found| {
+                    let surface = self.surface(ray, time, Meeting::Mesh(found), Parameters::Used);
+                    surface.into_iter().for_each(&mut visit);
                 });
             }
         }
@@ -163,20 +181,31 @@ impl<'s> Solid<'s> {
     /// Visits every surface of a shape in the range of the ray: where, and its unit normal. `false` for a mesh.
     pub(crate) fn each_crossing(&self, ray: &Ray, time: f32, mut visit: impl FnMut(f32, Vec3)) -> bool {
         let Body::Shape(shape) = &self.body else { return false };
-        self.place.at(time, |transform| {
-            let (local, shape) = (transform.local_ray(ray), shape.geometry());
-            shape.each_root(&local, &mut |root| {
-                visit(root.t as f32, transform.normal(shape.normal(&local, root).as_vec3()));
-            });
+        let Some(transform) = self.place.now(time) else { return true };
+        let (local, shape) = (transform.local_ray(ray), shape.geometry());
+        shape.each_root(&local, &mut |root| {
+            visit(root.t as f32, transform.normal(shape.normal(&local, root).as_vec3()));
         });
         true
     }
 
     /// The surface at a meeting that came from the same ray and time.
-    pub(crate) fn surface(&self, ray: &Ray, time: f32, meeting: Meeting) -> Option<SurfaceAt> {
-        self.place.at(time, |transform| match (&self.body, meeting) {
+    #[inline]
+    pub(crate) fn surface(
+        &self,
+        ray: &Ray,
+        time: f32,
+        meeting: Meeting,
+        parameters: Parameters,
+    ) -> Option<SurfaceAt> {
+        let transform = self.place.now(time)?;
+        match (&self.body, meeting) {
             (Body::Shape(shape), Meeting::Shape(root)) => {
-                let local = shape.geometry().surface(&transform.local_ray(ray), root);
+                let (ray, shape) = (transform.local_ray(ray), shape.geometry());
+                let local = match parameters {
+                    Parameters::Unused => shape.bare_surface(&ray, root),
+                    Parameters::Used => shape.surface(&ray, root),
+                };
                 Some(SurfaceAt {
                     hit: transform.hit_to_world(&local),
                     local: local.p.as_vec3(),
@@ -197,6 +226,6 @@ impl<'s> Solid<'s> {
             }
             // A meeting of the other kind does not come from this body.
             _ => None,
-        })?
+        }
     }
 }

@@ -27,15 +27,14 @@ impl World<'_> {
         let p = hit.hit.at.p.as_dvec3();
         let side = if turned { -1.0 } else { 1.0 };
         let Some(solid) = self.solid_of(hit) else { return Vec3::ZERO };
-        let lift = solid.place.at(time, |transform| {
-            let corners = mesh.triangles[triangle as usize].map(|v| v as usize);
-            corners.into_iter().zip(weights).fold(DVec3::ZERO, |lift, (corner, weight)| {
-                // Onto the plane through the corner at right angles to its normal, if that lies above.
-                let vertex = transform.matrix().transform_point3(mesh.positions[corner].as_dvec3());
-                let normal = side * transform.normal(mesh.normals[corner]).as_dvec3();
-                lift - f64::from(weight) * (p - vertex).dot(normal).min(0.0) * normal
-            })
+        let Some(transform) = solid.place.now(time) else { return Vec3::ZERO };
+        let corners = mesh.triangles[triangle as usize].map(|v| v as usize);
+        let lift = corners.into_iter().zip(weights).fold(DVec3::ZERO, |lift, (corner, weight)| {
+            // Onto the plane through the corner at right angles to its normal, if that lies above.
+            let vertex = transform.matrix().transform_point3(mesh.positions[corner].as_dvec3());
+            let normal = side * transform.normal(mesh.normals[corner]).as_dvec3();
+            lift - f64::from(weight) * (p - vertex).dot(normal).min(0.0) * normal
         });
-        lift.map_or(Vec3::ZERO, DVec3::as_vec3)
+        lift.as_vec3()
     }
 }
