@@ -74,18 +74,19 @@ fn is_even(space: CheckerSpace, transform: &UvTransform, at: &TexturePoint) -> b
     2.0 * floor(half) == sum
 }
 
+/// From here on every number is whole.
+const WHOLE: f32 = (1 << (f32::MANTISSA_DIGITS - 1)) as f32;
+
 /// The floor of a coordinate whose rounding must not decide: a face that lies on a border between cells belongs to the
 /// upper one as a whole.
 fn snapped_floor(v: f32) -> f32 {
-    let nearest = floor(v + 0.5);
+    let nearest = if v.abs() < WHOLE { floor(v + 0.5) } else { v };
     if (v - nearest).abs() <= heliostat_geometry::error_bound::on_face(nearest) { nearest } else { floor(v) }
 }
 
 /// [`f32::floor`], which is a call of a function on machines of the oldest kind.
 #[inline]
 fn floor(v: f32) -> f32 {
-    // From here on every number is whole.
-    const WHOLE: f32 = (1 << f32::MANTISSA_DIGITS) as f32;
     let towards_zero = v as i32 as f32;
     let below = if towards_zero > v { towards_zero - 1.0 } else { towards_zero };
     if v.abs() < WHOLE { below } else { v }

@@ -184,6 +184,21 @@ fn half_alpha() -> Texture {
 }
 
 #[test]
+fn a_plane_far_behind_everything_shades_from_a_wide_sun() {
+    let ceiling = |samples| {
+        let kind = LightKind::Directional { direction: Vec3::NEG_Y, angle: 0.2 };
+        Stage::new()
+            .with(sphere(0.5), white(), Transform::IDENTITY)
+            .with_light(1.0, samples, kind)
+            .with(plane(), black(), at(0.0, 10.0, 0.0))
+    };
+    for samples in [1, 16] {
+        let seen = ceiling(samples).grey(Vec3::new(0.3, 3.0, 0.0), Vec3::new(0.0, 0.5, 0.0));
+        assert_eq!(seen, 0.0, "{samples} samples");
+    }
+}
+
+#[test]
 fn cut_outs_let_rays_and_light_pass() {
     let mut stage = Stage::new()
         .with(plane(), Phong { ambient: grey(1.0), ..white() }, Transform::IDENTITY)

@@ -83,7 +83,10 @@ impl<'s> PreparedLight<'s> {
     pub(crate) fn hull(&self, p: Vec3, scene: Aabb) -> Option<Cow<'_, Hull>> {
         match &self.source {
             Source::Point(_) => None,
-            Source::Directional(light) => light.bounds(p, scene).map(Hull::of_box).map(Cow::Owned),
+            Source::Directional(light) => {
+                let hull = |bounds| Cow::Owned(Hull::of_box(bounds).endless());
+                light.bounds(p, scene).map(hull)
+            },
             Source::Area(_) => self.surface.as_ref().map(Cow::Borrowed),
         }
     }

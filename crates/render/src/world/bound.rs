@@ -26,7 +26,8 @@ pub(super) struct Ball {
 
 impl Ball {
     fn around(centre: Vec3, radius: f32) -> Self {
-        let radius = radius + gamma(8) * (centre.length() + radius);
+        // A ray that crosses a surface starts a few error bounds before it.
+        let radius = radius + gamma(32) * (centre.length() + radius);
         Self { centre, radius_squared: radius * radius }
     }
 }

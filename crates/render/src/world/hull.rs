@@ -13,6 +13,8 @@ pub(crate) struct Hull {
     edges: [Vec3; 3],
     /// Whether the ellipsoid is meant.
     is_round: bool,
+    /// Whether rays to it go on behind it.
+    pub(super) is_endless: bool,
     /// Of a sphere around its centre that holds it, to a few roundings.
     pub(super) radius: f32,
 }
@@ -50,7 +52,12 @@ impl Hull {
         // The farthest corner; its opposite lies equally far out.
         let corners = [a + b + c, a + b - c, a - b + c, a - b - c];
         let radius = corners.into_iter().map(Vec3::length).fold(0.0, f32::max);
-        Self { centre, edges, is_round, radius }
+        Self { centre, edges, is_round, is_endless: false, radius }
+    }
+
+    /// The same for a light that lies behind it, infinitely far away.
+    pub(crate) fn endless(self) -> Self {
+        Self { is_endless: true, ..self }
     }
 
     /// The largest cosine between the unit vector `axis` and a direction from `p` to the hull; rounded up.

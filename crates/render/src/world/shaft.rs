@@ -41,13 +41,16 @@ impl<'a> Shaft<'a> {
         Self { start, start_radius, light, way, way_squared, way_length, light_depth, reach, error }
     }
 
-    /// Whether all of it lies on one side of the plane through `origin` with unit normal `n`.
+    /// Whether all of it, and where the light is endless all that lies behind, is on one side of the plane through `origin` with unit normal `n`.
     pub(super) fn is_beside(&self, origin: Vec3, n: Vec3) -> bool {
         let error = projection(self.reach + origin.abs(), n) + self.start_radius;
         let start = n.dot(self.start - origin);
         let light = n.dot(self.light.centre - origin);
         let light_error = self.light.extent(n) + error;
-        (start > error && light > light_error) || (start < -error && light < -light_error)
+        let is_beside = (start > error && light > light_error) || (start < -error && light < -light_error);
+        // Rays that come nearer to the plane meet it behind the light, if they go on there.
+        let stays_beside = !self.light.is_endless || light.abs() - light_error > start.abs();
+        is_beside && stays_beside
     }
 
     /// [`Shaft::may_hold`] for a sphere, which is as wide along every axis.
@@ -65,7 +68,9 @@ impl<'a> Shaft<'a> {
 
         // Across the way, straight away from the middle of the shaft.
         let outward = offset - (depth / self.way_squared) * self.way;
-        let width = self.share(far) * self.light.extent(outward) + radius * outward.length();
+        // What rounding left of the way in it counts as well.
+        let light = self.light.extent(outward) + outward.dot(self.way).abs();
+        let width = self.share(far) * light + radius * outward.length();
         // False for a NaN, from numbers that overflow: such things are kept.
         let is_beside = offset.dot(outward).abs() > width;
         !is_beside
@@ -151,15 +156,18 @@ mod tests {
         fn a_sphere_that_a_ray_meets_is_never_culled(
             start in vec3(10.0),
             light in a_box(12.0),
-            radius in 0.001_f32..3.0,
+            radius in prop_oneof![0.001_f32..0.1, 0.1_f32..3.0],
+            size in prop::sample::select(vec![1e-4_f32, 1e-2, 1.0]),
             along in 0.0_f32..1.0,
             corner in prop::array::uniform3(0.0_f32..=1.0),
-            off in vec3(0.577),
+            (off, rim) in (vec3(1.0), prop::sample::select(vec![0.5_f32, 0.9, 0.99])),
             scale in prop::sample::select(vec![1e-3_f32, 1.0, 1e5]),
         ) {
-            // Plant a sphere around a point of a ray to a point of the light.
+            // Plant a sphere whose rim a ray to a point of the light meets.
+            let light = Aabb { min: light.min, max: light.min + size * light.size() };
             let target = light.min + Vec3::from_array(corner) * light.size();
-            let centre = start + along * (target - start) + radius * off;
+            let across = off.cross(target - start).normalize_or_zero();
+            let centre = start + along * (target - start) + rim * radius * across;
             let light = Hull::of_box(Aabb { min: scale * light.min, max: scale * light.max });
             let shaft = Shaft::new(scale * start, 0.0, &light);
             prop_assert!(shaft.may_hold_sphere(scale * centre, scale * radius));
