@@ -5,6 +5,7 @@
 //! versions do the same operations in the same order (products and sums are never fused), so that bits do not depend on
 //! the machine.
 
+use crate::bits;
 use glam::Vec3;
 use pulp::{Arch, NullaryFnOnce};
 
@@ -70,15 +71,8 @@ pub(crate) fn holds(mask: Mask, lane: usize) -> bool {
 }
 
 /// The lanes of a mask, ascending.
-pub(crate) fn lanes_of(mut mask: Mask) -> impl Iterator<Item = usize> {
-    std::iter::from_fn(move || {
-        if mask == 0 {
-            return None;
-        }
-        let lowest = mask.trailing_zeros() as usize;
-        mask &= mask - 1;
-        Some(lowest)
-    })
+pub(crate) fn lanes_of(mask: Mask) -> impl Iterator<Item = usize> {
+    bits::places(u64::from(mask))
 }
 
 /// The sum of all lanes, by pairs: always in the same order.

@@ -63,6 +63,7 @@
 //! in the order of samples.
 
 mod background;
+mod bits;
 mod camera_ray;
 mod check;
 pub mod counters;

@@ -187,10 +187,11 @@ fn half_alpha() -> Texture {
 fn a_plane_far_behind_everything_shades_from_a_wide_sun() {
     let ceiling = |samples| {
         let kind = LightKind::Directional { direction: Vec3::NEG_Y, angle: 0.2 };
-        Stage::new()
-            .with(sphere(0.5), white(), Transform::IDENTITY)
-            .with_light(1.0, samples, kind)
-            .with(plane(), black(), at(0.0, 10.0, 0.0))
+        Stage::new().with(sphere(0.5), white(), Transform::IDENTITY).with_light(1.0, samples, kind).with(
+            plane(),
+            black(),
+            at(0.0, 10.0, 0.0),
+        )
     };
     for samples in [1, 16] {
         let seen = ceiling(samples).grey(Vec3::new(0.3, 3.0, 0.0), Vec3::new(0.0, 0.5, 0.0));

@@ -86,7 +86,7 @@ impl<'s> PreparedLight<'s> {
             Source::Directional(light) => {
                 let hull = |bounds| Cow::Owned(Hull::of_box(bounds).endless());
                 light.bounds(p, scene).map(hull)
-            },
+            }
             Source::Area(_) => self.surface.as_ref().map(Cow::Borrowed),
         }
     }

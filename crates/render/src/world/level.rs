@@ -2,6 +2,7 @@
 
 use super::bound::Bound;
 use super::solid::Solid;
+use crate::bits;
 use heliostat_geometry::{Aabb, Ray};
 use heliostat_index::{BspTree, BuildError, BuildParams, Found, RayIndex, TraversalCost};
 
@@ -134,7 +135,7 @@ impl Level {
         let all = if self.bounds.len() > MANY {
             Candidates::All
         } else {
-            Candidates::Some(low_bits(self.ids.len()))
+            Candidates::Some(bits::lowest(self.ids.len()))
         };
         self.narrow(all, counts)
     }
@@ -143,14 +144,14 @@ impl Level {
     #[inline]
     pub(super) fn narrow(&self, candidates: Candidates, mut counts: impl FnMut(u32) -> bool) -> Candidates {
         let Candidates::Some(set) = candidates else { return candidates };
-        let counting = bits(set).filter(|&i| counts(self.ids[i]));
+        let counting = bits::places(set).filter(|&i| counts(self.ids[i]));
         Candidates::Some(counting.fold(0, |counting, i| counting | 1 << i))
     }
 
     /// The candidates, ascending, where they are so few that each is asked by itself.
     #[inline]
     pub(super) fn few(&self, candidates: Candidates) -> Option<impl Iterator<Item = u32>> {
-        Some(bits(self.few_bits(candidates)?).map(|i| self.ids[i]))
+        Some(bits::places(self.few_bits(candidates)?).map(|i| self.ids[i]))
     }
 
     #[inline]
@@ -168,7 +169,9 @@ impl Level {
         mut hit: impl FnMut(u32, &Ray) -> bool,
     ) -> bool {
         match (self.few_bits(candidates), &self.tree) {
-            (Some(few), _) => bits(few).any(|i| self.bounds[i].may_meet(ray) && hit(self.ids[i], ray)),
+            (Some(few), _) => {
+                bits::places(few).any(|i| self.bounds[i].may_meet(ray) && hit(self.ids[i], ray))
+            }
             (None, Some(tree)) => tree.any_hit(ray, |i, ray| hit(self.ids[i as usize], ray)),
             // Without a tree there are few, if any.
             (None, None) => self.ids.iter().any(|&id| hit(id, ray)),
@@ -180,28 +183,11 @@ impl Level {
     pub(super) fn each(&self, ray: &Ray, candidates: Candidates, mut visit: impl FnMut(u32)) {
         match (self.few_bits(candidates), &self.tree) {
             (Some(few), _) => {
-                bits(few).filter(|&i| self.bounds[i].may_meet(ray)).for_each(|i| visit(self.ids[i]));
+                bits::places(few).filter(|&i| self.bounds[i].may_meet(ray)).for_each(|i| visit(self.ids[i]));
             }
             (None, Some(tree)) => tree.for_each_hit(ray, |i| visit(self.ids[i as usize])),
             // Without a tree there are few, if any.
             (None, None) => self.ids.iter().for_each(|&id| visit(id)),
         }
     }
-}
-
-/// The lowest `n` bits, up to all.
-fn low_bits(n: usize) -> u64 {
-    if n < MANY { (1 << n) - 1 } else { u64::MAX }
-}
-
-/// The places of the bits that are set, ascending.
-fn bits(mut set: u64) -> impl Iterator<Item = usize> + Clone {
-    std::iter::from_fn(move || {
-        if set == 0 {
-            return None;
-        }
-        let lowest = set.trailing_zeros() as usize;
-        set &= set - 1;
-        Some(lowest)
-    })
 }

@@ -11,6 +11,7 @@ mod error;
 mod filter;
 mod hit;
 mod hull;
+mod kinds;
 mod level;
 mod place;
 mod shadow;
@@ -33,10 +34,8 @@ pub use trees::TreeCache;
 use crate::light::{LightTable, PreparedLight};
 use heliostat_geometry::{Aabb, Ray};
 use heliostat_index::{BspTree, MeshTree, TraversalCost};
-use heliostat_scene::light::LightKind;
-use heliostat_scene::material::{Material, Surface};
-use heliostat_scene::settings::Layers;
-use heliostat_scene::{MaterialId, Object, RenderSettings, Rgb, Scene, TextureId};
+use heliostat_scene::{RenderSettings, Rgb, Scene};
+use kinds::{Shadow, parameters_of, shadow_of, visible_lights};
 use level::Level;
 use solid::{Meeting, Parameters, Solid, SurfaceAt};
 use std::sync::Arc;
@@ -66,17 +65,6 @@ pub struct World<'s> {
     glass: bool,
     /// Whether all objects are seen by camera rays.
     all_visible: bool,
-}
-
-/// How a thing stops light.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Shadow {
-    /// Not at all.
-    None,
-    /// A part of it passes.
-    Filter,
-    /// Nothing passes.
-    Solid,
 }
 
 /// The nearest thing on the way of a ray.
@@ -280,44 +268,4 @@ impl<'s> World<'s> {
             Owner::Light(_) => None,
         }
     }
-}
-
-/// The area lights that are seen: their index, surface and place.
-fn visible_lights(
-    scene: &Scene,
-) -> impl Iterator<Item = (u32, (&heliostat_scene::object::Geometry, Place<'_>))> {
-    (0..).zip(&scene.lights).filter_map(|(i, light)| match &light.kind {
-        LightKind::Area { geometry, transform, visible: true, .. } => {
-            Some((i, (geometry, Place::Still(transform))))
-        }
-        _ => None,
-    })
-}
-
-/// How an object stops light, by all of its materials.
-fn shadow_of(scene: &Scene, object: &Object, glass: bool) -> Shadow {
-    let lets_through = |material: &Material| {
-        let Surface::Phong(phong) = &material.surface;
-        material.opacity.factor < 1.0
-            || material.opacity.texture.is_some()
-            || (glass && !phong.transparency.is_zero())
-    };
-    if !object.casts_shadow {
-        Shadow::None
-    } else if object.materials.iter().any(|id| lets_through(&scene.materials[id.index()])) {
-        Shadow::Filter
-    } else {
-        Shadow::Solid
-    }
-}
-
-/// Whether anything looks at the surface parameters of an object.
-fn parameters_of(scene: &Scene, object: &Object, layers: &Layers) -> Parameters {
-    let looks = |id: TextureId| scene.textures[id.index()].uses_parameters();
-    let material = |id: &MaterialId| {
-        let material = &scene.materials[id.index()];
-        // A relief bends the normal along the tangents.
-        material.relief.is_some() || material.textures().any(looks)
-    };
-    if layers.uv || object.materials.iter().any(material) { Parameters::Used } else { Parameters::Unused }
 }
