@@ -75,8 +75,8 @@ pub fn encode_png(frame: &Frame, options: &PngOptions) -> Result<Vec<u8>, String
         None => main_layer(&names),
     };
     let layer = layer.ok_or_else(|| no_layer(&names, options.layer.as_deref()))?;
-    let samples = quantize(frame, &layer, options);
-    compress(frame.width, frame.height, samples, options.bits).map_err(|e| format!("cannot be encoded: {e}"))
+    let (samples, has_alpha) = quantize(frame, &layer, options);
+    compress(frame, &samples, has_alpha, options.bits).map_err(|e| format!("cannot be encoded: {e}"))
 }
 
 fn no_layer(names: &[&str], wanted: Option<&str>) -> String {
@@ -86,60 +86,68 @@ fn no_layer(names: &[&str], wanted: Option<&str>) -> String {
     }
 }
 
-/// RGBA as display colour in steps, each of one or two bytes.
-fn quantize(frame: &Frame, layer: &Layer, options: &PngOptions) -> Vec<u8> {
-    let (largest, bytes) = match options.bits {
-        PngBits::Eight => (u16::from(u8::MAX), 1),
-        PngBits::Sixteen => (u16::MAX, 2),
-    };
+/// Samples of all pixels as display colour in steps, each of one or two bytes, and whether alpha is among them.
+fn quantize(frame: &Frame, layer: &Layer, options: &PngOptions) -> (Vec<u8>, bool) {
+    match options.bits {
+        PngBits::Eight => {
+            let table = EncodedSteps::new();
+            let alpha = |v| linear_step(v, u8::MAX.into()) as u8;
+            samples(frame, layer, options, |v| table.step(v), alpha)
+        }
+        PngBits::Sixteen => {
+            let alpha = |v| linear_step(v, u16::MAX).to_be_bytes();
+            let (samples, has_alpha) = samples(frame, layer, options, |v| alpha(encoded(v)), alpha);
+            (samples.as_flattened().to_vec(), has_alpha)
+        }
+    }
+}
+
+/// [`quantize`] with samples of any type; a picture that is opaque everywhere goes without alpha.
+fn samples<S: Copy + PartialEq + Send + Sync>(
+    frame: &Frame,
+    layer: &Layer,
+    options: &PngOptions,
+    color: impl Fn(f32) -> S + Sync,
+    alpha: impl Fn(f32) -> S + Sync,
+) -> (Vec<S>, bool) {
     let rows = Rows::new(frame, layer);
-    let table = (options.bits == PngBits::Eight).then(EncodedSteps::new);
-    let encoded_step = |v: f32| match &table {
-        Some(table) => u16::from(table.step(v)),
-        None => linear_step(encoded(v), largest),
-    };
     let one = |y: &u32| {
         let mut pixels = vec![Vec4::ZERO; frame.width as usize];
         rows.read(*y, &mut pixels);
-        let mut row = Vec::with_capacity(4 * bytes * pixels.len());
-        for pixel in pixels {
-            let [r, g, b] = options.view.form(straight(pixel)).to_array().map(encoded_step);
-            for step in [r, g, b, linear_step(pixel.w, largest)] {
-                row.extend_from_slice(&step.to_be_bytes()[2 - bytes..]);
-            }
-        }
-        row
+        let quantized = pixels.into_iter().map(|pixel| {
+            let [r, g, b] = options.view.form(straight(pixel)).to_array().map(&color);
+            [r, g, b, alpha(pixel.w)]
+        });
+        quantized.collect::<Vec<_>>()
     };
-    map_in_order(&(0..frame.height).collect::<Vec<_>>(), options.threads, one).concat()
+    let rows = map_in_order(&(0..frame.height).collect::<Vec<_>>(), options.threads, one);
+    let opaque = alpha(1.0);
+    if rows.iter().flatten().any(|pixel| pixel[3] != opaque) {
+        return (rows.concat().as_flattened().to_vec(), true);
+    }
+    let mut samples = Vec::with_capacity(3 * frame.width as usize * frame.height as usize);
+    rows.iter().flatten().for_each(|&[r, g, b, _]| samples.extend([r, g, b]));
+    (samples, false)
 }
 
 fn compress(
-    width: u32,
-    height: u32,
-    mut samples: Vec<u8>,
+    frame: &Frame,
+    samples: &[u8],
+    has_alpha: bool,
     bits: PngBits,
 ) -> Result<Vec<u8>, png::EncodingError> {
-    let (depth, bytes) = match bits {
-        PngBits::Eight => (png::BitDepth::Eight, 1),
-        PngBits::Sixteen => (png::BitDepth::Sixteen, 2),
-    };
-    // A picture that is opaque everywhere goes without alpha.
-    let has_alpha =
-        samples.chunks_exact(4 * bytes).any(|pixel| pixel[3 * bytes..].iter().any(|&b| b != u8::MAX));
-    if !has_alpha {
-        let mut opaque = Vec::with_capacity(samples.len() / 4 * 3);
-        samples.chunks_exact(4 * bytes).for_each(|pixel| opaque.extend_from_slice(&pixel[..3 * bytes]));
-        samples = opaque;
-    }
     let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    let mut encoder = png::Encoder::new(&mut bytes, frame.width, frame.height);
     encoder.set_color(if has_alpha { png::ColorType::Rgba } else { png::ColorType::Rgb });
-    encoder.set_depth(depth);
+    encoder.set_depth(match bits {
+        PngBits::Eight => png::BitDepth::Eight,
+        PngBits::Sixteen => png::BitDepth::Sixteen,
+    });
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     // A third of the time of the default, for files a little larger.
     encoder.set_compression(png::Compression::Fast);
     let mut writer = encoder.write_header()?;
-    writer.write_image_data(&samples)?;
+    writer.write_image_data(samples)?;
     writer.finish()?;
     Ok(bytes)
 }
