@@ -71,25 +71,14 @@ fn is_even(space: CheckerSpace, transform: &UvTransform, at: &TexturePoint) -> b
     };
     // Twice the half of an even number is that number; cells far out are even, as floats of that size are.
     let (sum, half) = (cell.element_sum(), 0.5 * cell.element_sum());
-    2.0 * floor(half) == sum
+    2.0 * half.floor() == sum
 }
-
-/// From here on every number is whole.
-const WHOLE: f32 = (1 << (f32::MANTISSA_DIGITS - 1)) as f32;
 
 /// The floor of a coordinate whose rounding must not decide: a face that lies on a border between cells belongs to the
 /// upper one as a whole.
 fn snapped_floor(v: f32) -> f32 {
-    let nearest = if v.abs() < WHOLE { floor(v + 0.5) } else { v };
-    if (v - nearest).abs() <= heliostat_geometry::error_bound::on_face(nearest) { nearest } else { floor(v) }
-}
-
-/// [`f32::floor`], which is a call of a function on machines of the oldest kind.
-#[inline]
-fn floor(v: f32) -> f32 {
-    let towards_zero = v as i32 as f32;
-    let below = if towards_zero > v { towards_zero - 1.0 } else { towards_zero };
-    if v.abs() < WHOLE { below } else { v }
+    let nearest = v.round();
+    if (v - nearest).abs() <= heliostat_geometry::error_bound::on_face(nearest) { nearest } else { v.floor() }
 }
 
 /// The value of an image at transformed surface parameters; `v = 0` is its lower edge.

@@ -55,7 +55,7 @@ pub struct FirstHit {
     pub normal: Vec3,
     /// Share of the light that the surface sends on, per channel in `[0, 1]`.
     pub albedo: Rgb,
-    /// Surface parameters.
+    /// Surface parameters; [`Whitted`] may leave them 0 where neither the material nor a layer looks at them.
     pub uv: Vec2,
     /// Index of the object in the scene; `None` for the surface of an area light.
     pub object: Option<u32>,
