@@ -7,12 +7,13 @@
 //! Wächter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems, 2019.
 
 use crate::ray::Interval;
-use glam::{DMat3, DVec3, Mat3, Vec3};
+use glam::{DMat3, DVec3, Mat3, Vec3, Vec3A};
 
 /// Half the distance between 1 and the next `f32`: the largest relative error of one rounded operation.
 pub const UNIT_ROUNDOFF: f32 = f32::EPSILON * 0.5;
 
 /// Bound of the relative error of `n` rounded operations in a row: `n u / (1 - n u)`.
+#[inline]
 pub const fn gamma(n: u32) -> f32 {
     let nu = n as f32 * UNIT_ROUNDOFF;
     nu / (1.0 - nu)
@@ -142,6 +143,7 @@ pub fn offset_along(p: Vec3, p_err: Vec3, n: Vec3) -> Vec3 {
 /// `reach` is the largest coordinate of a corner, seen from the ray's origin. Per corner: one rounding of the
 /// subtraction of the origin, on the corner across the ray and on the corner along it; two of the slope, one of its
 /// product, one of the last subtraction.
+#[inline]
 pub fn sheared_corner(reach: f32) -> f32 {
     gamma(6) * reach
 }
@@ -157,6 +159,7 @@ pub fn sheared_corner(reach: f32) -> f32 {
 ///
 /// # Source
 /// Higham, "Accuracy and Stability of Numerical Algorithms", 2nd edition, section 3.1, applied to the terms above.
+#[inline]
 pub fn cell_padding(distance: f32, size: f32) -> f32 {
     gamma(6) * distance + 2.0 * sheared_corner(distance + size)
 }
@@ -171,13 +174,16 @@ pub fn clipped_corner(extent: f32) -> f64 {
 
 /// The reciprocals of a direction, per axis.
 ///
-/// A component so small that over any distance it moves the ray by less than the square of the unit roundoff, a zero
-/// of either sign included, is replaced by the smallest that counts: products with planes stay numbers. The
-/// displacement vanishes in [`cell_padding`].
-pub fn inverse_direction(dir: Vec3) -> Vec3 {
-    let floor = UNIT_ROUNDOFF * UNIT_ROUNDOFF * dir.abs().max_element();
-    let inverse = |d: f32| 1.0 / if d.abs() < floor { floor.copysign(d) } else { d };
-    Vec3::new(inverse(dir.x), inverse(dir.y), inverse(dir.z))
+/// A component so small that over any distance it moves the ray by less than a hundred-millionth of that, a zero of either
+/// sign included, is replaced by the smallest that counts: products with planes stay numbers. The displacement vanishes in
+/// [`cell_padding`].
+#[inline(always)]
+pub fn inverse_direction(dir: Vec3A) -> Vec3A {
+    const SMALLEST: f32 = 1e-20;
+    let size = dir.abs();
+    let fastest = size.max_element();
+    let floor = if fastest > 1e8 * SMALLEST { SMALLEST } else { UNIT_ROUNDOFF * UNIT_ROUNDOFF * fastest };
+    1.0 / size.max(Vec3A::splat(floor)).copysign(dir)
 }
 
 /// Bound of the rounding, in `f32`, of the discriminant of a line and a sphere: `r^2 d^2 - |l x d|^2` with the radius `r`, the
@@ -198,4 +204,13 @@ pub fn local_segment(origin: Vec3, linear: Mat3, reach: Vec3, size: Vec3) -> f32
     let mapped =
         linear.x_axis.abs() * reach.x + linear.y_axis.abs() * reach.y + linear.z_axis.abs() * reach.z;
     gamma(8) * (origin.abs() + mapped + size).max_element() + f32::MIN_POSITIVE
+}
+
+/// Bound, per axis and in lengths, of the error of the distance to a plane as `plane * inverse - origin * inverse`, where
+/// `extent` is the sum of the magnitudes of plane and origin.
+///
+/// The inverse, the product with the origin, a margin added to it, and the difference are rounded once each.
+#[inline]
+pub fn slab_padding(extent: Vec3A) -> Vec3A {
+    gamma(6) * extent
 }

@@ -27,73 +27,73 @@ use glam::{DVec3, Vec3, Vec4, Vec4Swizzles};
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct TriangleRay {
-    ray: Ray,
-    /// The axis along which the direction is longest; the shear keeps its coordinate.
-    along: Axis,
-    /// Slopes of the direction along the other two axes (in cyclic order) over `along`.
+    /// The axis (0, 1, 2) along which the direction is longest. All below are turned so that it is the last one.
+    along: usize,
+    origin: Vec3,
+    dir: Vec3,
+    /// Slopes of the direction along the first two axes over the last one.
     slope: [f32; 2],
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Axis {
-    X,
-    Y,
-    Z,
-}
-
-impl Axis {
-    /// The coordinates of `v` in cyclic order, this axis last.
-    #[inline(always)]
-    fn last(self, v: Vec3) -> (f32, f32, f32) {
-        match self {
-            Self::X => (v.y, v.z, v.x),
-            Self::Y => (v.z, v.x, v.y),
-            Self::Z => (v.x, v.y, v.z),
-        }
-    }
-
-    #[inline]
-    fn of(self, v: DVec3) -> f64 {
-        match self {
-            Self::X => v.x,
-            Self::Y => v.y,
-            Self::Z => v.z,
-        }
-    }
+/// The coordinates in cyclic order, axis `along` last.
+///
+/// They are looked up rather than branched on: which axis it is, is hard to foresee.
+#[inline(always)]
+fn turned(along: usize, Vec3 { x, y, z }: Vec3) -> Vec3 {
+    let twice = [x, y, z, x, y];
+    let along = along % 3;
+    Vec3::new(twice[along + 1], twice[along + 2], twice[along])
 }
 
 impl TriangleRay {
     /// Prepares `ray`; worth it once per ray and space, not per triangle.
-    #[inline]
+    #[inline(always)]
     pub fn new(ray: &Ray) -> Self {
-        let size = ray.dir.abs();
-        let along = if size.x > size.y && size.x > size.z {
-            Axis::X
-        } else if size.y > size.z {
-            Axis::Y
+        let Vec3 { x, y, z } = ray.dir.abs();
+        let along = if (x > y) & (x > z) {
+            0
+        } else if y > z {
+            1
         } else {
-            Axis::Z
+            2
         };
-        let (x, y, z) = along.last(ray.dir);
-        Self { ray: *ray, along, slope: [x / z, y / z] }
+        let dir = turned(along, ray.dir);
+        Self { along, origin: turned(along, ray.origin), dir, slope: [dir.x / dir.z, dir.y / dir.z] }
     }
 
-    /// The ray it was made from.
-    #[inline]
-    pub fn ray(&self) -> &Ray {
-        &self.ray
+    /// The axis (0, 1, 2) along which the direction is longest.
+    #[inline(always)]
+    pub fn along(&self) -> usize {
+        self.along
+    }
+
+    /// The origin in cyclic order, the axis along which the direction is longest last.
+    #[inline(always)]
+    pub fn origin(&self) -> Vec3 {
+        self.origin
+    }
+
+    /// The direction in the same order.
+    #[inline(always)]
+    pub fn dir(&self) -> Vec3 {
+        self.dir
+    }
+
+    /// Slopes of the direction along the first two of these axes over the last one.
+    #[inline(always)]
+    pub fn slope(&self) -> [f32; 2] {
+        self.slope
     }
 
     /// Where the corners land in the plane across the ray, one lane each; the last lane is 0.
     ///
     /// It must stay a function of the ray and the corner alone: on that the watertightness rests.
     #[inline(always)]
-    fn project(&self, along: Axis, corners: [Vec3; 3]) -> (Vec4, Vec4) {
-        let [a, b, c] = corners.map(|corner| along.last(corner));
-        let (x, y, z) = along.last(self.ray.origin);
-        let z = Vec4::new(a.2, b.2, c.2, z) - z;
-        let x = Vec4::new(a.0, b.0, c.0, x) - x;
-        let y = Vec4::new(a.1, b.1, c.1, y) - y;
+    fn project(&self, [a, b, c]: [Vec3; 3]) -> (Vec4, Vec4) {
+        let origin = self.origin;
+        let z = Vec4::new(a.z, b.z, c.z, origin.z) - origin.z;
+        let x = Vec4::new(a.x, b.x, c.x, origin.x) - origin.x;
+        let y = Vec4::new(a.y, b.y, c.y, origin.y) - origin.y;
         (x - self.slope[0] * z, y - self.slope[1] * z)
     }
 }
@@ -113,25 +113,15 @@ pub struct TriangleHit {
 /// finite and rays without direction give `None`.
 #[inline]
 pub fn intersect(ray: &TriangleRay, range: Interval, corners: [Vec3; 3]) -> Option<TriangleHit> {
-    // One branch per ray direction, always taken the same way, is cheaper than selecting every coordinate.
-    match ray.along {
-        Axis::X => intersect_along(ray, Axis::X, range, corners),
-        Axis::Y => intersect_along(ray, Axis::Y, range, corners),
-        Axis::Z => intersect_along(ray, Axis::Z, range, corners),
-    }
+    let [a, b, c] = corners;
+    intersect_turned(ray, range, [turned(ray.along, a), turned(ray.along, b), turned(ray.along, c)])
 }
 
-/// [`intersect`] with the axis as a constant after inlining.
+/// [`intersect`] with the coordinates of the corners in the order of [`TriangleRay::origin`].
 #[inline(always)]
-fn intersect_along(
-    ray: &TriangleRay,
-    along: Axis,
-    range: Interval,
-    corners: [Vec3; 3],
-) -> Option<TriangleHit> {
+pub fn intersect_turned(ray: &TriangleRay, range: Interval, corners: [Vec3; 3]) -> Option<TriangleHit> {
     // Look down the ray: the origin becomes (0, 0), and the ray the point there. Lanes are the corners a, b, c.
-    let (x, y) = ray.project(along, corners);
-
+    let (x, y) = ray.project(corners);
     // Twice the signed areas that the point spans with the edges opposite to a, b, c. The two products are rounded in
     // the same direction as they compare, so a sign is right or the difference is 0.
     let areas = x.zxyw() * y.yzxw() - y.zxyw() * x.yzxw();
@@ -151,7 +141,7 @@ fn intersect_along(
 }
 
 /// The barycentric weights of the point (0, 0) by edge functions whose products are exact; `None` when it is outside.
-#[inline]
+#[inline(always)]
 fn exact_weights(x: Vec4, y: Vec4) -> Option<[f64; 3]> {
     let [a, b, c] = [[x.x, y.x], [x.y, y.y], [x.z, y.z]].map(|p| p.map(f64::from));
     let u = c[0] * b[1] - c[1] * b[0];
@@ -167,21 +157,22 @@ fn exact_weights(x: Vec4, y: Vec4) -> Option<[f64; 3]> {
 }
 
 /// The distance to the plane of a triangle that the line of the ray is known to meet; `None` behind the origin.
-#[inline]
+#[inline(always)]
 fn plane_distance(ray: &TriangleRay, corners: [Vec3; 3], weights: [f64; 3]) -> Option<f64> {
-    let (origin, dir) = (ray.ray.origin.as_dvec3(), ray.ray.dir.as_dvec3());
-    let [a, b, c] = corners.map(|corner| corner.as_dvec3() - origin);
-    let normal = (b - a).cross(c - a);
+    let (origin, dir) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
+    let normal = normal(corners);
     if normal == DVec3::ZERO {
         return None;
     }
+    let [a, b, c] = corners;
+    let (a, b, c) = (a.as_dvec3() - origin, b.as_dvec3() - origin, c.as_dvec3() - origin);
 
     // Where the test across the ray saw the hit, along the sheared axis: a place of the triangle itself.
-    let inverse = 1.0 / ray.along.of(dir);
-    let at = [a, b, c].map(|corner| ray.along.of(corner) * inverse);
-    let seen = weights[0] * at[0] + weights[1] * at[1] + weights[2] * at[2];
-    let nearest = at[0].min(at[1]).min(at[2]);
-    let farthest = at[0].max(at[1]).max(at[2]);
+    let inverse = 1.0 / dir.z;
+    let (at_a, at_b, at_c) = (a.z * inverse, b.z * inverse, c.z * inverse);
+    let seen = weights[0] * at_a + weights[1] * at_b + weights[2] * at_c;
+    let nearest = lesser(lesser(at_a, at_b), at_c);
+    let farthest = greater(greater(at_a, at_b), at_c);
 
     // The sign of the quotient decides only when the triangle reaches back to the origin: a triangle that is wholly
     // ahead is hit, or a ray along a silhouette could leave a closed mesh.
@@ -191,10 +182,35 @@ fn plane_distance(ray: &TriangleRay, corners: [Vec3; 3], weights: [f64; 3]) -> O
     if facing == 0.0 {
         return is_ahead.then_some(seen);
     }
-
     // The plane of a triangle seen almost edge on may be met far from it: hold the quotient to the place where the
     // triangle was seen, give or take the displacement of its corners, and to the triangle.
     let reach = a.abs().max(b.abs()).max(c.abs()).max_element();
     let slack = f64::from(sheared_corner(reach as f32)) * inverse.abs();
-    (t > 0.0 || is_ahead).then(|| t.max(seen - slack).min(seen + slack).max(nearest).min(farthest))
+    let held = lesser(greater(lesser(greater(t, seen - slack), seen + slack), nearest), farthest);
+    (t > 0.0 || is_ahead).then_some(held)
+}
+
+/// A normal whose length is twice the area.
+#[inline(always)]
+fn normal(corners: [Vec3; 3]) -> DVec3 {
+    let [a, b, c] = corners;
+    let a = a.as_dvec3();
+    (b.as_dvec3() - a).cross(c.as_dvec3() - a)
+}
+
+/// Whether a triangle has no area, so that [`intersect`] never hits it.
+pub fn is_flat(corners: [Vec3; 3]) -> bool {
+    normal(corners) == DVec3::ZERO
+}
+
+/// The smaller of two numbers, without a thought for NaN.
+#[inline(always)]
+fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// The larger of two numbers, without a thought for NaN.
+#[inline(always)]
+fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }

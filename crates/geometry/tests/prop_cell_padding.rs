@@ -44,7 +44,7 @@ proptest! {
 #[test]
 fn inverse_directions_are_numbers_with_the_right_sign() {
     for scale in [1.0_f32, 1e-10, 1e10] {
-        let inverse = inverse_direction(scale * Vec3::new(0.0, -0.0, -4.0));
+        let inverse = inverse_direction((scale * Vec3::new(0.0, -0.0, -4.0)).into());
         assert!(inverse.is_finite(), "{inverse}");
         assert!(inverse.x > 0.0 && inverse.y < 0.0);
         assert_eq!(inverse.z, 1.0 / (-4.0 * scale));

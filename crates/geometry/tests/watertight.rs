@@ -7,8 +7,8 @@ use heliostat_geometry::{Interval, Ray, TriMesh};
 
 /// The nearest hit by trying every triangle.
 fn nearest(mesh: &TriMesh, ray: &Ray) -> Option<(u32, f32)> {
+    let mut range = ray.range;
     let ray = TriangleRay::new(ray);
-    let mut range = ray.ray().range;
     let mut best = None;
     for triangle in 0..mesh.triangles.len() as u32 {
         if let Some(hit) = intersect(&ray, range, mesh.corners(triangle)) {

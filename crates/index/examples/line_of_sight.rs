@@ -33,7 +33,7 @@ fn landscape(n: u32) -> TriMesh {
 #[expect(clippy::print_stdout, reason = "an example shows its result")]
 fn main() -> Result<(), BuildError> {
     let hills = landscape(200);
-    let tree = MeshTree::build(&hills, &BuildParams::SAH)?;
+    let tree = MeshTree::build(&hills, &BuildParams::BALANCED)?;
 
     // Towers of three metres on a grid.
     let tower = |i: u32| {
@@ -43,14 +43,14 @@ fn main() -> Result<(), BuildError> {
     let towers: Vec<Vec3> = (0..121).map(tower).collect();
 
     let segment = |a: Vec3, b: Vec3| Ray { origin: a, dir: b - a, range: Interval { min: 0.0, max: 1.0 } };
-    let sees = |a: usize, b: usize| !tree.any_hit(&hills, &segment(towers[a], towers[b]));
+    let sees = |a: usize, b: usize| !tree.any_hit(&segment(towers[a], towers[b]));
     let pairs = (0..towers.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
     let (seen, all) = pairs.fold((0, 0), |(seen, all), (a, b)| (seen + u32::from(sees(a, b)), all + 1));
     println!("{seen} of {all} pairs of towers see each other over {} triangles", hills.triangles.len());
 
     // How much rock lies between two of them: the surface is crossed in and out.
     let mut crossings = Vec::new();
-    tree.for_each_hit(&hills, &segment(towers[0], towers[120]), |hit| crossings.push(hit.hit.t));
+    tree.for_each_hit(&segment(towers[0], towers[120]), |hit| crossings.push(hit.hit.t));
     println!("the segment from the first to the last crosses the ground {} times", crossings.len());
     Ok(())
 }

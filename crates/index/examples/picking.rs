@@ -29,7 +29,7 @@ fn ray_through(pixel: [u32; 2], size: [u32; 2], eye: Vec3) -> Ray {
 #[expect(clippy::print_stdout, reason = "an example shows its result")]
 fn main() -> Result<(), BuildError> {
     let boxes = city(40);
-    let tree = BspTree::build(&boxes, &BuildParams::SAH)?;
+    let tree = BspTree::build(&boxes, &BuildParams::BALANCED)?;
     let eye = Vec3::new(1.0, 45.0, 190.0);
 
     for pixel in [[640, 440], [640, 560], [200, 480], [640, 20]] {

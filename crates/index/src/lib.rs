@@ -17,7 +17,7 @@
 //! let centres: Vec<Vec3> = (0..10).map(|i| Vec3::new(3.0 * i as f32, 0.0, 0.0)).collect();
 //! let boxes: Vec<Aabb> =
 //!     centres.iter().map(|&c| Aabb { min: c - Vec3::ONE, max: c + Vec3::ONE }).collect();
-//! let tree = BspTree::build(&boxes, &BuildParams::SAH)?;
+//! let tree = BspTree::build(&boxes, &BuildParams::BALANCED)?;
 //!
 //! // The closure decides what is hit: here the ball inside the box.
 //! let ball = |i: u32, ray: &Ray| {
@@ -49,19 +49,23 @@ pub mod brute;
 pub mod bsp;
 mod clip;
 pub mod mesh_tree;
+mod parallel;
 pub mod primitives;
 pub mod query;
 #[cfg(feature = "reference")]
 pub mod reference;
+mod simd;
 pub mod verify;
+mod wide;
 
 pub use brute::BruteForce;
 pub use bsp::{
-    BspTree, BuildError, BuildParams, ExportWhat, InvalidTree, SahCosts, SplitRule, TraversalCost, TreeStats,
-    export_obj,
+    BspTree, BuildError, BuildParams, ExportWhat, InvalidTree, SahCosts, SplitRule, TreeStats, export_obj,
 };
 pub use mesh_tree::{MeshHit, MeshTree};
 pub use primitives::Primitives;
 pub use query::{Found, RayIndex};
 #[cfg(feature = "reference")]
 pub use reference::ReferenceBvh;
+pub use simd::Backend;
+pub use wide::walk::TraversalCost;

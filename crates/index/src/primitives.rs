@@ -4,7 +4,7 @@ use crate::clip::clipped_triangle_bounds;
 use heliostat_geometry::{Aabb, TriMesh};
 
 /// A list of primitives that are known by their boxes.
-pub trait Primitives {
+pub trait Primitives: Sync {
     /// How many there are; ids run from 0 to one below.
     fn len(&self) -> usize;
 

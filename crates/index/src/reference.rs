@@ -44,13 +44,13 @@ impl ReferenceBvh {
     /// When a primitive has an empty or NaN box, or there are more than ids can name.
     pub fn build<P: Primitives + ?Sized>(primitives: &P) -> Result<Self, BuildError> {
         let (refs, unbounded) = gather(primitives)?;
-        let around = refs.iter().fold(Aabb::EMPTY, |around, r| around.union(r.bounds));
+        let around = refs.iter().fold(Aabb::EMPTY, |around, r| around.union(r.bounds()));
         let extent = if refs.is_empty() { 0.0 } else { around.min.abs().max(around.max.abs()).max_element() };
         let margin = Vec3::splat(cell_padding(12.0 * extent, extent));
         let boxes: Vec<obvhs::aabb::Aabb> = refs
             .iter()
             .map(|r| {
-                let (min, max) = (r.bounds.min - margin, r.bounds.max + margin);
+                let (min, max) = (r.bounds().min - margin, r.bounds().max + margin);
                 obvhs::aabb::Aabb::new(Vec3A::from(min), Vec3A::from(max))
             })
             .collect();
@@ -60,7 +60,7 @@ impl ReferenceBvh {
             let mut seconds = Duration::ZERO;
             build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut seconds)
         };
-        Ok(Self { bvh, ids: refs.iter().map(|r| r.primitive).collect(), unbounded })
+        Ok(Self { bvh, ids: refs.iter().map(|r| r.primitive()).collect(), unbounded })
     }
 
     /// Hands candidates to `test`, which answers up to which distance hits still matter; minus infinity ends

@@ -99,7 +99,7 @@ impl<'m> Verifier<'m> {
                 }
             };
             for (name, tree) in &self.trees {
-                judge(name, tree.closest_hit(self.mesh, &ray), tree.any_hit(self.mesh, &ray));
+                judge(name, tree.closest_hit(&ray), tree.any_hit(&ray));
             }
             #[cfg(feature = "reference")]
             judge("obvhs", self.closest_by_witness(&ray), self.any_by_witness(&ray));

@@ -83,7 +83,7 @@ fn assert_tiles(exported: &Exported, root: Aabb) {
 #[test]
 fn leaves_and_any_depth_tile_the_root() {
     let mesh = sheet();
-    for params in [BuildParams::MIDPOINT, BuildParams::SAH] {
+    for params in [BuildParams::MIDPOINT, BuildParams::BALANCED] {
         let tree = BspTree::build(&mesh, &params).unwrap();
         let stats = tree.stats();
         let leaves = export(&tree, ExportWhat::Leaves);

@@ -8,8 +8,8 @@ use std::collections::BTreeSet;
 
 const PRESETS: [BuildParams; 3] = [
     BuildParams::MIDPOINT,
-    BuildParams::SAH,
-    BuildParams { leaf_limit: 1, max_depth: 12, ..BuildParams::SAH },
+    BuildParams::BALANCED,
+    BuildParams { leaf_limit: 1, max_depth: 12, ..BuildParams::BALANCED },
 ];
 
 fn config() -> ProptestConfig {

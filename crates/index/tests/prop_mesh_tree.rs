@@ -6,15 +6,16 @@ mod hostile;
 use heliostat_geometry::triangle::{TriangleRay, intersect};
 use heliostat_geometry::{Interval, Ray, TriMesh};
 use heliostat_index::mesh_tree::brute_force;
-use heliostat_index::{BspTree, BuildParams, MeshHit, MeshTree, RayIndex, TraversalCost};
+use heliostat_index::{Backend, BspTree, BuildParams, MeshHit, MeshTree, RayIndex, TraversalCost};
 use hostile::{RaySeed, mesh, ray_seed};
 use proptest::prelude::*;
 
-const PRESETS: [BuildParams; 4] = [
+const PRESETS: [BuildParams; 5] = [
     BuildParams::MIDPOINT,
-    BuildParams::SAH,
+    BuildParams::FAST,
+    BuildParams::BALANCED,
     BuildParams { clip: false, leaf_limit: 1, ..BuildParams::MIDPOINT },
-    BuildParams { clip: false, leaf_limit: 1, ..BuildParams::SAH },
+    BuildParams { leaf_limit: 1, ..BuildParams::BEST },
 ];
 
 fn config() -> ProptestConfig {
@@ -43,38 +44,61 @@ proptest! {
             for seed in &seeds {
                 let ray = seed.fit(&mesh);
                 let truth = brute_force(&mesh, &ray);
-                prop_assert_eq!(tree.closest_hit(&mesh, &ray), truth, "{:?} {:?}", ray, params);
-                prop_assert_eq!(tree.any_hit(&mesh, &ray), truth.is_some(), "{:?} {:?}", ray, params);
+                prop_assert_eq!(tree.closest_hit(&ray), truth, "{:?} {:?}", ray, params);
+                prop_assert_eq!(tree.any_hit(&ray), truth.is_some(), "{:?} {:?}", ray, params);
 
                 let mut hits = Vec::new();
-                tree.for_each_hit(&mesh, &ray, |hit| hits.push(hit));
+                tree.for_each_hit(&ray, |hit| hits.push(hit));
                 hits.sort_by_key(|hit| hit.triangle);
                 prop_assert_eq!(hits, all_hits(&mesh, &ray), "{:?} {:?}", ray, params);
             }
         }
     }
 
-    // The generic queries over the same tree give the same answers, and count their work.
+    // The generic queries give the same answers, over a tree of their own and over the one inside, and count their work.
     #[test]
     fn generic_queries_agree_with_the_fast_path((mesh, seeds) in scene()) {
         for params in &PRESETS {
             let fast = MeshTree::build(&mesh, params).unwrap();
-            let tree = BspTree::build(&mesh, params).unwrap();
+            let own = BspTree::build(&mesh, params).unwrap();
+            for tree in [fast.tree(), &own] {
+                for seed in &seeds {
+                    let ray = seed.fit(&mesh);
+                    let sheared = TriangleRay::new(&ray);
+                    let closure =
+                        |i, ray: &Ray| intersect(&sheared, ray.range, mesh.corners(i)).map(|hit| (hit.t, hit));
+                    let mut cost = TraversalCost::default();
+                    let found = tree.closest_hit_counted(&ray, closure, &mut cost);
+                    prop_assert_eq!(found, tree.closest_hit(&ray, closure));
+                    prop_assert!(found.is_none() || (cost.nodes > 0 && cost.leaves > 0 && cost.tests > 0));
+
+                    let found = found.map(|f| MeshHit { triangle: f.primitive, hit: f.data });
+                    let mut cost = TraversalCost::default();
+                    prop_assert_eq!(fast.closest_hit_counted(&ray, &mut cost), found);
+                    prop_assert!(found.is_none() || (cost.nodes > 0 && cost.leaves > 0 && cost.tests > 0));
+                }
+            }
+        }
+    }
+
+    // Every back end finds what plain arrays find, bit for bit.
+    #[test]
+    fn back_ends_agree((mesh, seeds) in scene()) {
+        let tree = MeshTree::build(&mesh, &BuildParams::BALANCED).unwrap();
+        let twin = tree.clone().with_backend(Backend::PORTABLE);
+        for backend in Backend::available() {
+            let tree = tree.clone().with_backend(backend);
             for seed in &seeds {
                 let ray = seed.fit(&mesh);
-                let sheared = TriangleRay::new(&ray);
-                let closure =
-                    |i, ray: &Ray| intersect(&sheared, ray.range, mesh.corners(i)).map(|hit| (hit.t, hit));
-                let mut cost = TraversalCost::default();
-                let found = tree.closest_hit_counted(&ray, closure, &mut cost);
-                prop_assert_eq!(found, tree.closest_hit(&ray, closure));
-                let found = found.map(|f| MeshHit { triangle: f.primitive, hit: f.data });
-                prop_assert_eq!(found, fast.closest_hit(&mesh, &ray));
-                prop_assert!(found.is_none() || (cost.leaves > 0 && cost.tests > 0));
-
-                let mut fast_cost = TraversalCost::default();
-                prop_assert_eq!(fast.closest_hit_counted(&mesh, &ray, &mut fast_cost), found);
-                prop_assert_eq!(fast_cost, cost);
+                prop_assert_eq!(tree.closest_hit(&ray), twin.closest_hit(&ray), "{} {:?}", backend.name(), ray);
+                prop_assert_eq!(tree.any_hit(&ray), twin.any_hit(&ray), "{} {:?}", backend.name(), ray);
+                let all = |tree: &MeshTree| {
+                    let mut hits = Vec::new();
+                    tree.for_each_hit(&ray, |hit| hits.push(hit));
+                    hits.sort_by_key(|hit| hit.triangle);
+                    hits
+                };
+                prop_assert_eq!(all(&tree), all(&twin), "{} {:?}", backend.name(), ray);
             }
         }
     }
@@ -93,12 +117,12 @@ proptest! {
     // it gives the next.
     #[test]
     fn distance_grows_as_the_range_shrinks((mesh, seeds) in scene()) {
-        let tree = MeshTree::build(&mesh, &BuildParams::SAH).unwrap();
+        let tree = MeshTree::build(&mesh, &BuildParams::BALANCED).unwrap();
         for seed in &seeds {
             let ray = seed.fit(&mesh);
-            let Some(first) = tree.closest_hit(&mesh, &ray) else { continue };
+            let Some(first) = tree.closest_hit(&ray) else { continue };
             let range = ray.range;
-            let at = |range: Interval| tree.closest_hit(&mesh, &Ray { range, ..ray });
+            let at = |range: Interval| tree.closest_hit(&Ray { range, ..ray });
             prop_assert_eq!(at(Interval { max: first.hit.t, ..range }), Some(first));
             prop_assert_eq!(at(Interval { max: first.hit.t.next_down(), ..range }), None);
             let next = at(Interval { min: first.hit.t.next_up(), ..range });
@@ -117,8 +141,8 @@ proptest! {
             let other = MeshTree::build(&changed, params).unwrap();
             for seed in &seeds {
                 let ray = seed.fit(&mesh);
-                let t = |tree: &MeshTree, mesh| tree.closest_hit(mesh, &ray).map(|hit| hit.hit.t);
-                prop_assert_eq!(t(&tree, &mesh), t(&other, &changed), "{:?}", ray);
+                let t = |tree: &MeshTree| tree.closest_hit(&ray).map(|hit| hit.hit.t);
+                prop_assert_eq!(t(&tree), t(&other), "{:?}", ray);
             }
         }
     }

@@ -9,7 +9,8 @@ mod support;
 use heliostat_index::verify::{Agreement, Verifier};
 use heliostat_index::{BuildParams, MeshTree};
 
-const PRESETS: [(&str, BuildParams); 2] = [("midpoint", BuildParams::MIDPOINT), ("sah", BuildParams::SAH)];
+const PRESETS: [(&str, BuildParams); 2] =
+    [("midpoint", BuildParams::MIDPOINT), ("balanced", BuildParams::BALANCED)];
 
 fn rays(fewer: u64) -> u64 {
     std::env::var("HELIOSTAT_DEEP").ok().and_then(|n| n.parse().ok()).unwrap_or(fewer)

@@ -106,7 +106,7 @@ fn index_stats(world: &World<'_>) -> Vec<IndexStats> {
     let is_first = |i: usize| !trees[..i].iter().any(|other| Arc::ptr_eq(other, &trees[i]));
     let meshes = (0..trees.len())
         .filter(|&i| is_first(i))
-        .map(|i| IndexStats { name: format!("mesh {i}"), tree: trees[i].tree().stats() });
+        .map(|i| IndexStats { name: format!("mesh {i}"), tree: trees[i].stats() });
     objects.into_iter().chain(meshes).collect()
 }
 

@@ -19,7 +19,7 @@ const IO: &str = "heliostat-io";
 /// The graph. What is not listed here is forbidden.
 const GRAPH: &[Allowed] = &[
     Allowed { package: GEOMETRY, inside: &[], outside: &["glam", "proptest"] },
-    Allowed { package: INDEX, inside: &[GEOMETRY], outside: &["glam", "obvhs"] },
+    Allowed { package: INDEX, inside: &[GEOMETRY], outside: &["glam", "obvhs", "rayon"] },
     Allowed { package: SCENE, inside: &[GEOMETRY], outside: &["glam"] },
     Allowed {
         package: RENDER,
@@ -67,6 +67,11 @@ const GRAPH: &[Allowed] = &[
         package: "xtask",
         inside: &[],
         outside: &["clap", "delaunator", "glam", "image", "serde_json"],
+    },
+    Allowed {
+        package: "xtask-bench",
+        inside: &[GEOMETRY, INDEX, IO],
+        outside: &["clap", "glam", "libloading", "obvhs", "rayon", "serde_json"],
     },
     Allowed {
         package: "heliostat-tests",

@@ -20,7 +20,7 @@ pub(crate) struct IndexArgs {
     /// A scene (.toml) or a model (.obj)
     pub(crate) scene: PathBuf,
 
-    /// How trees are built; without it, both presets are shown
+    /// How trees are built; without it, `midpoint` and `balanced` are shown
     #[arg(long, value_enum, value_name = "NAME")]
     pub(crate) preset: Option<Preset>,
 
@@ -54,6 +54,10 @@ pub(crate) struct IndexArgs {
 pub(crate) enum Preset {
     /// Split of the longest edge in the middle: the classic build
     Midpoint,
-    /// Split where the surface area heuristic costs least
-    Sah,
+    /// Built in the shortest time
+    Fast,
+    /// Fast rays after a short build: what renders use
+    Balanced,
+    /// The fastest rays
+    Best,
 }

@@ -36,7 +36,7 @@ fn flags() -> Vec<(&'static str, &'static [&'static str], &'static str)> {
         ("an output twice", &["render", "scene.toml", "-o", "a.png", "-o", "a.png"], "leave one out"),
         ("--set without a value", &["render", "scene.toml", "--set", "render.samples"], "PATH=VALUE"),
         ("exposure that is no number", &["render", "scene.toml", "--exposure", "NaN"], "finite"),
-        ("no such preset", &["index", "scene.toml", "--preset", "sahh"], "sah"),
+        ("no such preset", &["index", "scene.toml", "--preset", "balancd"], "balanced"),
         ("no such shell", &["completions", "tcsh"], "bash"),
         ("bits that PNG has not", &["view", "a.exr", "--bits", "12"], "8 or 16"),
     ]

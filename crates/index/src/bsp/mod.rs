@@ -9,30 +9,29 @@
 //! [`params`] says how a tree is built, `build` does it, with the planes that `split` and `sah` choose; `traverse`
 //! walks a ray through it. [`stats`], [`validate`] and [`export`] look at the result.
 
-mod blur;
 pub(crate) mod build;
 pub mod export;
-mod node;
+pub(crate) mod node;
 pub mod params;
-mod sah;
 mod split;
 pub mod stats;
-pub mod traverse;
 pub mod validate;
 pub(crate) mod visited;
 
 pub use export::{ExportWhat, export_obj};
 pub use params::{BuildError, BuildParams, SahCosts, SplitRule};
 pub use stats::TreeStats;
-pub use traverse::TraversalCost;
 pub use validate::InvalidTree;
 
 use crate::primitives::Primitives;
 use crate::query::{Found, Nearest, RayIndex};
-use blur::Blur;
+use crate::simd::{Backend, Lanes, Task};
+use crate::wide::Wide;
+use crate::wide::walk::{Counter, Search, TraversalCost, Uncounted, walk};
+use build::{Blur, LeafLayout};
 use heliostat_geometry::{Aabb, Ray};
 use node::{Kind, Node};
-use traverse::{Counter, Uncounted};
+use std::ops::Range;
 use visited::{Mailbox, Visited};
 
 /// A binary space partition over primitives that it knows by id.
@@ -42,16 +41,18 @@ pub struct BspTree {
     nodes: Vec<Node>,
     /// Primitive ids, leaf by leaf.
     leaf_refs: Vec<u32>,
+    /// What rays walk.
+    wide: Wide,
     /// Primitives with infinite boxes: every query tests them.
     unbounded: Vec<u32>,
     /// The root's cell: around all bounded primitives.
     bounds: Aabb,
     /// How sizes and coordinates blur what a cell holds.
     blur: Blur,
-    /// [`Blur::slack`].
-    slack: f32,
     depth: u32,
     params: BuildParams,
+    layout: LeafLayout,
+    backend: Backend,
     primitives: u32,
     build_seconds: f64,
 }
@@ -70,7 +71,7 @@ impl BspTree {
     /// # Errors
     /// When a primitive has an empty or NaN box, a setting is out of range, or there is more than ids can name.
     pub fn build<P: Primitives + ?Sized>(primitives: &P, params: &BuildParams) -> Result<Self, BuildError> {
-        build::build(primitives, params)
+        build::build(primitives, params, LeafLayout::SINGLE)
     }
 
     /// The box around all primitives whose boxes are finite, grown by rounding where one is much larger than the
@@ -98,6 +99,42 @@ impl BspTree {
     ) -> Option<Found<T>> {
         cost.tests += self.unbounded.len() as u64;
         self.closest(ray, hit, cost)
+    }
+
+    /// The same tree, walked by another back end.
+    #[must_use]
+    pub fn with_backend(self, backend: Backend) -> Self {
+        Self { backend, ..self }
+    }
+
+    /// Primitive ids, leaf by leaf, in whole groups.
+    pub(crate) fn leaf_refs(&self) -> &[u32] {
+        &self.leaf_refs
+    }
+
+    /// What rays walk.
+    pub(crate) fn wide(&self) -> &Wide {
+        &self.wide
+    }
+
+    pub(crate) fn backend(&self) -> Backend {
+        self.backend
+    }
+
+    /// Shows `visit` the references of all leaves on the way of a ray; it answers up to which distance hits still matter.
+    #[inline]
+    fn walk(&self, ray: &Ray, limit: f32, counter: &mut impl Counter, visit: impl FnMut(&[u32]) -> f32) {
+        self.backend.run(Visit { ray, limit, leaves: Leaves { tree: self, visit }, counter });
+    }
+
+    /// Places of the references of a leaf by what its wide child says, those included that fill the last group.
+    fn range_of(&self, leaf: u32) -> Range<usize> {
+        let (first, count) = match (self.layout.group, self.nodes.get(leaf as usize).map(|node| node.kind()))
+        {
+            (1, Some(Kind::Leaf { first, count })) => (first as usize, count as usize),
+            (group, _) => (group * (leaf & 0xFF_FFFF) as usize, group * (leaf >> 24) as usize),
+        };
+        first..first + count
     }
 
     fn closest<T>(
@@ -136,6 +173,39 @@ impl BspTree {
             }
             Some(Place { kind, cell, depth })
         })
+    }
+}
+
+/// Shows references to a closure.
+struct Leaves<'t, F> {
+    tree: &'t BspTree,
+    visit: F,
+}
+
+/// A walk that shows references to a closure.
+struct Visit<'a, F, C> {
+    ray: &'a Ray,
+    limit: f32,
+    leaves: Leaves<'a, F>,
+    counter: &'a mut C,
+}
+
+impl<F: FnMut(&[u32]) -> f32, C: Counter> Task for Visit<'_, F, C> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(mut self, lanes: L) {
+        let wide = &self.leaves.tree.wide;
+        walk(lanes, wide, self.ray, self.limit, &mut self.leaves, self.counter);
+    }
+}
+
+impl<F: FnMut(&[u32]) -> f32> Search for Leaves<'_, F> {
+    #[inline(always)]
+    fn leaf<L: Lanes>(&mut self, _lanes: L, leaf: u32, counter: &mut impl Counter) -> f32 {
+        let refs = &self.tree.leaf_refs[self.tree.range_of(leaf)];
+        counter.leaf(refs.len());
+        (self.visit)(refs)
     }
 }
 

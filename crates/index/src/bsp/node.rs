@@ -38,6 +38,10 @@ impl Node {
         Self { payload: first, tag: count << 2 | Self::LEAF }
     }
 
+    pub(crate) fn is_leaf(self) -> bool {
+        self.tag & 3 == Self::LEAF
+    }
+
     #[inline]
     pub(crate) fn kind(self) -> Kind {
         let (low, high) = (self.tag & 3, self.tag >> 2);

@@ -1,13 +1,7 @@
 //! Planes: to which side of one a reference goes, and the plane in the middle.
 
+use super::build::Reference;
 use heliostat_geometry::Aabb;
-
-/// A primitive in the cell at hand, with the box of the part of it that lies there.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Reference {
-    pub(crate) primitive: u32,
-    pub(crate) bounds: Aabb,
-}
 
 /// An axis-aligned plane strictly inside a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,10 +22,10 @@ impl Plane {
     /// The side of a box. One that touches the plane from a side belongs to that side alone, one that lies in the
     /// plane to the left: the walk looks a padding beyond each plane and so finds it from both sides.
     #[inline]
-    pub(crate) fn side(self, bounds: &Aabb) -> Side {
-        if bounds.max[self.axis] <= self.position {
+    pub(crate) fn side(self, reference: &Reference) -> Side {
+        if reference.high(self.axis) <= self.position {
             Side::Left
-        } else if bounds.min[self.axis] >= self.position {
+        } else if reference.low(self.axis) >= self.position {
             Side::Right
         } else {
             Side::Both
@@ -48,7 +42,7 @@ impl Plane {
 
     /// How many references go left and how many go right.
     pub(crate) fn count(self, refs: &[Reference]) -> (usize, usize) {
-        refs.iter().fold((0, 0), |(left, right), r| match self.side(&r.bounds) {
+        refs.iter().fold((0, 0), |(left, right), r| match self.side(r) {
             Side::Left => (left + 1, right),
             Side::Right => (left, right + 1),
             Side::Both => (left + 1, right + 1),

@@ -3,6 +3,7 @@
 use super::BspTree;
 use super::node::{Kind, Node};
 use super::params::{SahCosts, SplitRule};
+use crate::wide::WideNode;
 
 /// Figures of a tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,6 +22,8 @@ pub struct TreeStats {
     pub largest_leaf: usize,
     /// Levels below the root.
     pub depth: u32,
+    /// Nodes of the wide form that rays walk.
+    pub wide_nodes: usize,
     /// References of all leaves.
     pub references: usize,
     /// References per bounded primitive, 0 when there is none.
@@ -28,7 +31,7 @@ pub struct TreeStats {
     /// Work that the surface area heuristic expects for a ray that meets the root, in the costs of the build
     /// ([`SahCosts::DEFAULT`] for a tree built without costs, so that trees compare).
     pub sah_cost: f64,
-    /// Bytes of the tree; primitives not counted.
+    /// Bytes of the tree, with the triangles that a tree over a mesh lays out for itself; primitives not counted.
     pub bytes: usize,
     /// Seconds that the build took.
     pub build_seconds: f64,
@@ -37,7 +40,7 @@ pub struct TreeStats {
 impl BspTree {
     /// Counts and measures the tree.
     pub fn stats(&self) -> TreeStats {
-        let (mut leaves, mut empty_leaves, mut largest_leaf) = (0, 0, 0);
+        let (mut leaves, mut empty_leaves, mut largest_leaf, mut references) = (0, 0, 0, 0);
         let mut sah_cost = 0.0;
         let costs = self.costs();
         let root_area = self.bounds.surface_area();
@@ -47,13 +50,13 @@ impl BspTree {
                 Kind::Inner { .. } => sah_cost += chance * costs.traversal,
                 Kind::Leaf { count, .. } => {
                     sah_cost += chance * costs.intersection * f64::from(count);
+                    references += count as usize;
                     leaves += 1;
                     empty_leaves += usize::from(count == 0);
                     largest_leaf = largest_leaf.max(count as usize);
                 }
             }
         }
-        let references = self.leaf_refs.len();
         let bounded = self.primitives as usize - self.unbounded.len();
         TreeStats {
             primitives: self.primitives as usize,
@@ -63,12 +66,14 @@ impl BspTree {
             empty_leaves,
             largest_leaf,
             depth: self.depth,
+            wide_nodes: self.wide.nodes.len(),
             references,
             references_per_primitive: references as f64 / bounded.max(1) as f64,
             sah_cost,
             bytes: size_of::<Self>()
                 + self.nodes.len() * size_of::<Node>()
-                + (references + self.unbounded.len()) * size_of::<u32>(),
+                + self.wide.nodes.len() * size_of::<WideNode>()
+                + (self.leaf_refs.len() + self.unbounded.len()) * size_of::<u32>(),
             build_seconds: self.build_seconds,
         }
     }

@@ -3,10 +3,11 @@
 use super::node::Kind;
 use super::params::MAX_DEPTH;
 use super::split::Plane;
-use super::{BspTree, Place};
+use super::{BspTree, Place, build};
 use crate::primitives::Primitives;
 use glam::Vec3;
 use heliostat_geometry::Aabb;
+use std::collections::HashMap;
 use std::fmt;
 
 /// A promise that a tree breaks. Each message names the node or the primitive.
@@ -36,6 +37,7 @@ impl BspTree {
     /// - No leaf lies deeper than the tree says and the walk's stack allows.
     /// - The root holds the box of every bounded primitive, and the unbounded ones are listed apart.
     /// - A leaf names a primitive once, and only one whose box meets its cell.
+    /// - The wide form that rays walk has the same leaves, each in a box around all that it holds, in the order of every octant.
     /// - Every leaf names every primitive whose part inside its cell is more than a touch at the border.
     ///
     /// # Errors
@@ -45,7 +47,40 @@ impl BspTree {
         self.check_cells()?;
         self.check_unbounded(primitives)?;
         self.check_leaves(primitives)?;
-        self.check_reach(primitives)
+        self.check_reach(primitives)?;
+        self.check_wide(primitives)
+    }
+
+    /// The wide form has every leaf that holds anything, in a box around all that is in it.
+    fn check_wide<P: Primitives + ?Sized>(&self, primitives: &P) -> Result<(), InvalidTree> {
+        let wide = match self.wide.check() {
+            Ok(leaves) => leaves,
+            Err(violation) => return broken(violation),
+        };
+        let mut boxes = HashMap::new();
+        for (leaf, bounds) in wide {
+            for group in self.range_of(leaf).step_by(self.layout.group) {
+                if boxes.insert(group, bounds).is_some() {
+                    return broken(format!("the wide form names reference {group} twice"));
+                }
+            }
+        }
+        for place in self.places() {
+            let Kind::Leaf { first, count } = place.kind else { continue };
+            let (first, group) = (first as usize, self.layout.group);
+            for i in first..first + count as usize {
+                let Some(bounds) = boxes.get(&(i / group * group)) else {
+                    return broken(format!("the wide form does not name reference {i}"));
+                };
+                let primitive = self.leaf_refs[i];
+                let inner = self.interior(place.cell, primitives.bounds(primitive));
+                let part = primitives.clipped_bounds(primitive, inner);
+                if !build::grow(*bounds, self.blur.clipping as f32).contains_box(part) {
+                    return broken(format!("primitive {primitive} reaches out of the box of its leaf"));
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Children and references are each owned once.
@@ -69,7 +104,8 @@ impl BspTree {
                     claim(&mut node_owned, left as usize + 1, "node")?;
                 }
                 Kind::Leaf { first, count } => {
-                    for i in first as usize..first as usize + count as usize {
+                    let end = first as usize + (count as usize).next_multiple_of(self.layout.group);
+                    for i in first as usize..end {
                         claim(&mut ref_owned, i, "reference")?;
                     }
                 }

@@ -11,8 +11,8 @@ use heliostat_index::TraversalCost;
 use heliostat_scene::Rgb;
 use heliostat_scene::color::srgb_to_linear;
 
-/// Steps at the red end of the scale.
-const FULL_SCALE: f32 = 1024.0;
+/// Steps at the red end of the scale; at the other end is the one step of a ray that passes everything by.
+const FULL_SCALE: f32 = 256.0;
 
 /// The work of the index as a heat map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +24,7 @@ impl Integrator for Cost {
         // The picture shows rays that miss, too.
         world.camera_hit_counted(&ray.ray, ray.time, &mut cost);
         let steps = (cost.nodes + cost.leaves + cost.tests) as f32;
-        let radiance = turbo(steps.ln_1p() / FULL_SCALE.ln_1p());
+        let radiance = turbo(steps.max(1.0).ln() / FULL_SCALE.ln());
         Sample { radiance, alpha: 1.0, first: super::first::first_hit(world, ray).map(|(_, first)| first) }
     }
 }

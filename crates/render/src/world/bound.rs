@@ -75,7 +75,7 @@ fn meets_ball(ray: &Ray, ball: &Ball) -> bool {
 /// Kay and Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986; distances are grown by their rounding as in Ize, "Robust BVH
 /// Ray Traversal", JCGT 2013.
 fn meets_box(ray: &Ray, bounds: &Aabb) -> bool {
-    let inverse = inverse_direction(ray.dir);
+    let inverse = Vec3::from(inverse_direction(ray.dir.into()));
     let reach = ray.origin.abs().max_element() + bounds.min.abs().max(bounds.max.abs()).max_element();
     let a = (bounds.min - ray.origin) * inverse;
     let b = (bounds.max - ray.origin) * inverse;

@@ -67,7 +67,8 @@ impl Level {
                 bounds.push(Bound::new(solid));
             }
         }
-        let tree = if boxes.len() > FEW { Some(BspTree::build(&boxes, &BuildParams::SAH)?) } else { None };
+        let tree =
+            if boxes.len() > FEW { Some(BspTree::build(&boxes, &BuildParams::BALANCED)?) } else { None };
         let whole = boxes.iter().filter(|b| b.is_finite()).fold(Aabb::EMPTY, |all, &b| all.union(b));
         Ok(Self { ids, bounds, tree, whole })
     }

@@ -98,8 +98,8 @@ impl<'s> Solid<'s> {
                 let root = shape.hit(&transform.local_ray(ray))?;
                 Some((root.t as f32, Meeting::Shape(root)))
             }
-            Body::Mesh { mesh, tree } => {
-                let found = tree.closest_hit(mesh, &transform.ray_to_local(ray))?;
+            Body::Mesh { tree, .. } => {
+                let found = tree.closest_hit(&transform.ray_to_local(ray))?;
                 Some((found.hit.t, Meeting::Mesh(found)))
             }
         }
@@ -112,9 +112,9 @@ impl<'s> Solid<'s> {
         time: f32,
         cost: &mut TraversalCost,
     ) -> Option<(f32, Meeting)> {
-        let Body::Mesh { mesh, tree } = &self.body else { return self.closest(ray, time) };
+        let Body::Mesh { tree, .. } = &self.body else { return self.closest(ray, time) };
         let transform = self.place.now(time)?;
-        let found = tree.closest_hit_counted(mesh, &transform.ray_to_local(ray), cost)?;
+        let found = tree.closest_hit_counted(&transform.ray_to_local(ray), cost)?;
         Some((found.hit.t, Meeting::Mesh(found)))
     }
 
@@ -123,7 +123,7 @@ impl<'s> Solid<'s> {
     pub(crate) fn blocks(&self, ray: &Ray, time: f32) -> bool {
         self.place.now(time).is_some_and(|transform| match &self.body {
             Body::Shape(shape) => shape.hit(&transform.local_ray(ray)).is_some(),
-            Body::Mesh { mesh, tree } => tree.any_hit(mesh, &transform.ray_to_local(ray)),
+            Body::Mesh { tree, .. } => tree.any_hit(&transform.ray_to_local(ray)),
         })
     }
 
@@ -168,9 +168,9 @@ impl<'s> Solid<'s> {
                     rest.range.min = t.next_up();
                 }
             }
-            Body::Mesh { mesh, tree } => {
+            Body::Mesh { tree, .. } => {
                 let Some(transform) = self.place.now(time) else { return };
-                tree.for_each_hit(mesh, &transform.ray_to_local(ray), |found| {
+                tree.for_each_hit(&transform.ray_to_local(ray), |found| {
                     let surface = self.surface(ray, time, Meeting::Mesh(found), Parameters::Used);
                     surface.into_iter().for_each(&mut visit);
                 });

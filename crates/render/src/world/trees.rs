@@ -38,7 +38,7 @@ impl TreeCache {
 /// Checks a mesh and builds its tree.
 fn build(scene: &Scene, mesh: &Arc<TriMesh>) -> Result<Arc<MeshTree>, WorldError> {
     let place = || scene.meshes.iter().position(|other| Arc::ptr_eq(other, mesh)).unwrap_or_default();
-    let tree = MeshTree::build(mesh, &BuildParams::SAH)
+    let tree = MeshTree::build(mesh, &BuildParams::BALANCED)
         .map_err(|source| WorldError::MeshTree { mesh: place(), source })?;
     Ok(Arc::new(tree))
 }

@@ -23,7 +23,7 @@ pub(crate) fn run(args: &IndexArgs) -> Result<Exit, Failure> {
         check_writable(path)?;
     }
     let shot = open::first_shot(&args.scene)?;
-    let presets = args.preset.map_or(vec![Preset::Midpoint, Preset::Sah], |preset| vec![preset]);
+    let presets = args.preset.map_or(vec![Preset::Midpoint, Preset::Balanced], |preset| vec![preset]);
     let built: Vec<_> = presets
         .iter()
         .map(|&preset| Ok((preset, trees::build(&shot.scene, &params(preset))?)))
@@ -60,14 +60,18 @@ pub(crate) fn run(args: &IndexArgs) -> Result<Exit, Failure> {
 fn params(preset: Preset) -> BuildParams {
     match preset {
         Preset::Midpoint => BuildParams::MIDPOINT,
-        Preset::Sah => BuildParams::SAH,
+        Preset::Fast => BuildParams::FAST,
+        Preset::Balanced => BuildParams::BALANCED,
+        Preset::Best => BuildParams::BEST,
     }
 }
 
 fn name(preset: Preset) -> &'static str {
     match preset {
         Preset::Midpoint => "midpoint",
-        Preset::Sah => "sah",
+        Preset::Fast => "fast",
+        Preset::Balanced => "balanced",
+        Preset::Best => "best",
     }
 }
 
@@ -91,7 +95,7 @@ fn export(scene: &Scene, trees: &[SceneTree], args: &IndexArgs, path: &Path) -> 
 
 fn statistics_json(built: &[(Preset, Vec<SceneTree>)]) -> Vec<Value> {
     let each = |preset: Preset, tree: &SceneTree| {
-        let mut entry = stats_json(&tree.tree().stats());
+        let mut entry = stats_json(&tree.stats());
         entry["tree"] = json!(tree.name);
         entry["preset"] = json!(name(preset));
         entry
@@ -105,6 +109,7 @@ pub(crate) fn stats_json(stats: &TreeStats) -> Value {
         "primitives": stats.primitives,
         "unbounded": stats.unbounded,
         "nodes": stats.nodes,
+        "wide_nodes": stats.wide_nodes,
         "leaves": stats.leaves,
         "empty_leaves": stats.empty_leaves,
         "largest_leaf": stats.largest_leaf,
@@ -133,7 +138,7 @@ fn statistics_text(built: &[(Preset, Vec<SceneTree>)]) -> String {
     ]);
     let rows = built.iter().flat_map(|(preset, trees)| trees.iter().map(move |t| (*preset, t)));
     for (preset, tree) in rows {
-        let stats = tree.tree().stats();
+        let stats = tree.stats();
         table.row([
             tree.name.clone(),
             name(preset).to_owned(),

@@ -4,7 +4,7 @@ use crate::args::value::Tree;
 use crate::diagnose::Failure;
 use crate::exit::Exit;
 use heliostat_geometry::Aabb;
-use heliostat_index::{BspTree, BuildError, BuildParams, MeshTree};
+use heliostat_index::{BspTree, BuildError, BuildParams, MeshTree, TreeStats};
 use heliostat_scene::object::Geometry;
 use heliostat_scene::{Object, Scene};
 
@@ -29,6 +29,14 @@ impl SceneTree {
         match &self.kind {
             Kind::Objects(tree) => tree,
             Kind::Mesh(tree) => tree.tree(),
+        }
+    }
+
+    /// Its figures.
+    pub(super) fn stats(&self) -> TreeStats {
+        match &self.kind {
+            Kind::Objects(tree) => tree.stats(),
+            Kind::Mesh(tree) => tree.stats(),
         }
     }
 }

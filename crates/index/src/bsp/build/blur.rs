@@ -4,7 +4,7 @@
 //! as that distance is the way of the ray, the walk allows for it; what is left is the size of the primitive.
 //! The walk allows for *usual* sizes everywhere; primitives beyond are grown instead.
 
-use super::split::Reference;
+use super::reference::Reference;
 use glam::Vec3;
 use heliostat_geometry::Aabb;
 use heliostat_geometry::error_bound::{cell_padding, clipped_corner};
@@ -23,8 +23,8 @@ pub(crate) struct Blur {
 
 impl Blur {
     pub(crate) fn of(refs: &[Reference]) -> Self {
-        let mut sizes: Vec<f32> = refs.iter().map(|r| r.bounds.size().max_element()).collect();
-        let around = refs.iter().fold(Aabb::EMPTY, |around, r| around.union(r.bounds));
+        let mut sizes: Vec<f32> = refs.iter().map(|r| r.bounds().size().max_element()).collect();
+        let around = refs.iter().fold(Aabb::EMPTY, |around, r| around.union(r.bounds()));
         let Some(last) = sizes.len().checked_sub(1) else { return Self::default() };
         let (_, &mut usual_size, _) = sizes.select_nth_unstable_by(last - last / RARE, f32::total_cmp);
         let extent = around.min.abs().max(around.max.abs()).max_element();

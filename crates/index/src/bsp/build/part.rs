@@ -1,0 +1,109 @@
+//! A subtree made by one thread, depth first, without recursion.
+//!
+//! All references of unfinished cells lie in one arena. A cell that is cut keeps one side in place and appends the other;
+//! the side on top is finished first and then dropped. So memory is bounded by the references alive at once.
+
+use super::cell::{Cell, Cutter};
+use super::reference::{Around, Reference};
+use crate::bsp::node::Node;
+use crate::primitives::Primitives;
+use heliostat_geometry::Aabb;
+
+/// Nodes of a subtree: the root comes first; indices count from there, and leaves name references of `refs`.
+pub(super) struct Part {
+    pub(super) nodes: Vec<Node>,
+    /// The box of what lies below each node; empty for nothing.
+    pub(super) contents: Vec<Aabb>,
+    pub(super) refs: Vec<u32>,
+    /// The deepest level, counted from the root of the tree.
+    pub(super) depth: u32,
+}
+
+/// A cell whose references are those of the arena from `start` on.
+struct Task {
+    node: usize,
+    start: usize,
+    cell: Cell,
+}
+
+impl Part {
+    /// One leaf.
+    pub(super) fn leaf(cell: &Cell, refs: &[Reference]) -> Self {
+        Self {
+            nodes: vec![Node::leaf(0, refs.len() as u32)],
+            contents: vec![if refs.is_empty() { Aabb::EMPTY } else { cell.content.bounds() }],
+            refs: refs.iter().map(Reference::primitive).collect(),
+            depth: cell.depth,
+        }
+    }
+
+    /// The whole subtree of a cell.
+    pub(super) fn build<P: Primitives + ?Sized>(
+        cutter: &Cutter<'_, P>,
+        cell: Cell,
+        mut arena: Vec<Reference>,
+    ) -> Self {
+        let mut part = Self {
+            nodes: vec![Node::EMPTY],
+            contents: vec![Aabb::EMPTY],
+            refs: Vec::with_capacity(2 * arena.len()),
+            depth: 0,
+        };
+        let mut spill = Vec::new();
+        let mut tasks = vec![Task { node: 0, start: 0, cell }];
+        while let Some(Task { node, start, cell }) = tasks.pop() {
+            let refs = &arena[start..];
+            part.depth = part.depth.max(cell.depth);
+            if !refs.is_empty() {
+                part.contents[node] = cell.content.bounds();
+            }
+            let Some(decision) = cutter.decide(&cell, refs) else {
+                part.nodes[node] = Node::leaf(part.refs.len() as u32, refs.len() as u32);
+                part.refs.extend(refs.iter().map(Reference::primitive));
+                arena.truncate(start);
+                continue;
+            };
+
+            let before = refs.len();
+            let contents = cut(cutter, &mut arena, start, &mut spill, decision.plane);
+            let kept = arena.len();
+            arena.extend_from_slice(&spill);
+            let left = part.nodes.len();
+            part.nodes.extend([Node::EMPTY; 2]);
+            part.contents.extend([Aabb::EMPTY; 2]);
+            part.nodes[node] = Node::inner(decision.plane.axis, decision.plane.position, left as u32);
+            let [below, above] = cell.sides(&decision, before, [kept - start, spill.len()], contents);
+            tasks.push(Task { node: left, start, cell: below });
+            tasks.push(Task { node: left + 1, start: kept, cell: above });
+        }
+        part
+    }
+}
+
+/// Keeps what lies below a plane in the arena from `start` on, and puts what lies above it into `spill`; answers what is
+/// around either.
+fn cut<P: Primitives + ?Sized>(
+    cutter: &Cutter<'_, P>,
+    arena: &mut Vec<Reference>,
+    start: usize,
+    spill: &mut Vec<Reference>,
+    plane: crate::bsp::split::Plane,
+) -> [Around; 2] {
+    let mut around = [Around::NOTHING; 2];
+    let mut kept = start;
+    spill.clear();
+    for i in start..arena.len() {
+        let (below, above) = cutter.parts(arena[i], plane);
+        if let Some(reference) = below {
+            around[0].include(&reference);
+            arena[kept] = reference;
+            kept += 1;
+        }
+        if let Some(reference) = above {
+            around[1].include(&reference);
+            spill.push(reference);
+        }
+    }
+    arena.truncate(kept);
+    around
+}

@@ -1,0 +1,36 @@
+//! Two threads where feature `parallel` brings them, one otherwise; the results are the same.
+
+/// Does both, at the same time where it can.
+#[cfg(feature = "parallel")]
+pub(crate) fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
+    rayon::join(a, b)
+}
+
+/// Does both.
+#[cfg(not(feature = "parallel"))]
+pub(crate) fn join<A, B>(a: impl FnOnce() -> A, b: impl FnOnce() -> B) -> (A, B) {
+    (a(), b())
+}
+
+/// Maps chunks of `items` and joins the results, neighbours with neighbours, in order; `None` when there are no items.
+#[cfg(feature = "parallel")]
+pub(crate) fn map_reduce<T: Sync, R: Send>(
+    items: &[T],
+    chunk: usize,
+    map: impl Fn(&[T]) -> R + Send + Sync,
+    reduce: impl Fn(R, R) -> R + Send + Sync,
+) -> Option<R> {
+    use rayon::prelude::{ParallelIterator, ParallelSlice};
+    items.par_chunks(chunk).map(map).reduce_with(reduce)
+}
+
+/// Maps chunks of `items` and joins the results in order; `None` when there are no items.
+#[cfg(not(feature = "parallel"))]
+pub(crate) fn map_reduce<T, R>(
+    items: &[T],
+    chunk: usize,
+    map: impl Fn(&[T]) -> R,
+    reduce: impl Fn(R, R) -> R,
+) -> Option<R> {
+    items.chunks(chunk).map(map).reduce(reduce)
+}

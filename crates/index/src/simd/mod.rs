@@ -1,0 +1,166 @@
+//! Eight lanes of `f32` at a time: the one module that is allowed `unsafe`.
+//!
+//! [`Lanes`] is what the walk and the triangle test are written in. Each back end is a type of the same eight lanes;
+//! which of them a processor has is found out at run time ([`Backend::best`]), and `Backend::run` enters code that the
+//! compiler made for it. [`portable::Portable`] does everything on plain arrays: it is the twin that the others are held to,
+//! the form that Miri reads, and what processors without a back end of their own use.
+//!
+//! All back ends do the same operations in the same order and round alike, except in [`Lanes::mul_sub`], which only the
+//! conservative box test uses; so the hits they find are the same, to the bit.
+
+#![expect(unsafe_code, reason = "vector instructions, uninitialised stacks and rows chosen by a ray")]
+
+pub(crate) mod portable;
+pub(crate) mod stack;
+#[cfg(target_arch = "x86_64")]
+mod x86;
+
+pub(crate) use stack::{END, Pending, Stack, StackRoom};
+
+/// How many lanes there are.
+pub(crate) const LANES: usize = 8;
+
+/// Eight numbers, one a lane, aligned for one load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[repr(C, align(32))]
+pub(crate) struct Row(pub(crate) [f32; LANES]);
+
+/// A place in an array of `N`, chosen by a ray and then used without a check.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pick<const N: usize>(usize);
+
+impl<const N: usize> Pick<N> {
+    /// The place `i`, taken modulo the size of the array.
+    #[inline(always)]
+    pub(crate) fn new(i: usize) -> Self {
+        Self(i % N)
+    }
+
+    /// What is there.
+    #[inline(always)]
+    pub(crate) fn of<T>(self, items: &[T; N]) -> &T {
+        // SAFETY: the place is less than `N`.
+        unsafe { items.get_unchecked(self.0) }
+    }
+}
+
+/// Eight lanes of `f32` on one kind of processor.
+///
+/// A value of the type stands for the fact that the processor has what the methods need.
+pub(crate) trait Lanes: Copy {
+    /// Eight `f32`.
+    type F: Copy;
+
+    fn splat(self, x: f32) -> Self::F;
+    fn load(self, row: &Row) -> Self::F;
+    fn sub(self, a: Self::F, b: Self::F) -> Self::F;
+    fn mul(self, a: Self::F, b: Self::F) -> Self::F;
+    fn add(self, a: Self::F, b: Self::F) -> Self::F;
+    fn div(self, a: Self::F, b: Self::F) -> Self::F;
+    fn abs(self, a: Self::F) -> Self::F;
+    fn store(self, a: Self::F) -> Row;
+    /// `a * b - c`, rounded once or twice.
+    fn mul_sub(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F;
+    /// The smaller; `b` where one is NaN.
+    fn min(self, a: Self::F, b: Self::F) -> Self::F;
+    /// The larger; `b` where one is NaN.
+    fn max(self, a: Self::F, b: Self::F) -> Self::F;
+    /// A bit for each lane in which `a < b`.
+    fn lt(self, a: Self::F, b: Self::F) -> u32;
+    /// A bit for each lane that has a zero.
+    fn any_zero(self, a: Self::F, b: Self::F, c: Self::F) -> u32;
+    /// A bit for each lane that has one number below 0 and another above.
+    fn mixed_signs(self, a: Self::F, b: Self::F, c: Self::F) -> u32;
+
+    /// The stack of a walk.
+    type Stack<'r>: Pending<'r>;
+
+    /// The first child with `near <= far`, in the order in which `order` names their lanes (three bits each, the first in the
+    /// lowest); the others are pushed, so that the next one in order is on top. Where there is none, the child on top of the
+    /// stack, which must not be the last one.
+    fn enter(
+        self,
+        stack: &mut Self::Stack<'_>,
+        near: Self::F,
+        far: Self::F,
+        children: &[u32; LANES],
+        order: u32,
+    ) -> u32;
+}
+
+/// What a [`Backend`] is to run: a function that is generic over the lanes.
+pub(crate) trait Task {
+    type Output;
+
+    /// Must be `#[inline(always)]`, to be compiled for each back end.
+    fn run<L: Lanes>(self, lanes: L) -> Self::Output;
+}
+
+/// Code for one kind of processor; there is a value only where this processor can run it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Backend(Kind);
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Portable,
+    #[cfg(target_arch = "x86_64")]
+    Sse41,
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
+}
+
+impl Backend {
+    /// Plain arrays, on every processor; the compiler makes SSE2 or NEON of them.
+    pub const PORTABLE: Self = Self(Kind::Portable);
+
+    /// All that this processor can run, slowest first: `portable`, `sse4.1`, `avx2`, `avx512`.
+    pub fn available() -> Vec<Self> {
+        #[cfg_attr(not(target_arch = "x86_64"), expect(unused_mut, reason = "one back end"))]
+        let mut all = vec![Self::PORTABLE];
+        #[cfg(all(target_arch = "x86_64", not(miri)))]
+        {
+            let detected = [
+                (is_x86_feature_detected!("sse4.1"), Kind::Sse41),
+                (x86::has_avx2(), Kind::Avx2),
+                (x86::has_avx512(), Kind::Avx512),
+            ];
+            all.extend(detected.into_iter().filter(|(is_there, _)| *is_there).map(|(_, kind)| Self(kind)));
+        }
+        all
+    }
+
+    /// The fastest that this processor can run.
+    pub fn best() -> Self {
+        Self::available().last().copied().unwrap_or(Self::PORTABLE)
+    }
+
+    /// How it is called.
+    pub fn name(self) -> &'static str {
+        match self.0 {
+            Kind::Portable => "portable",
+            #[cfg(target_arch = "x86_64")]
+            Kind::Sse41 => "sse4.1",
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx2 => "avx2",
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx512 => "avx512",
+        }
+    }
+
+    /// Runs a task.
+    #[inline(always)]
+    pub(crate) fn run<T: Task>(self, task: T) -> T::Output {
+        match self.0 {
+            Kind::Portable => task.run(portable::Portable),
+            // SAFETY (all three): the value was made because the processor has what it takes.
+            #[cfg(target_arch = "x86_64")]
+            Kind::Sse41 => unsafe { x86::run_sse41(task) },
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx2 => unsafe { x86::run_avx2(task) },
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx512 => unsafe { x86::run_avx512(task) },
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! The lanes on plain arrays.
+
+use super::{LANES, Lanes, Pending, Row, Stack};
+
+/// Eight lanes on any processor.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Portable;
+
+impl Portable {
+    #[inline(always)]
+    fn zip(a: [f32; LANES], b: [f32; LANES], f: impl Fn(f32, f32) -> f32) -> [f32; LANES] {
+        std::array::from_fn(|i| f(a[i], b[i]))
+    }
+
+    #[inline(always)]
+    fn bits(test: impl Fn(usize) -> bool) -> u32 {
+        (0..LANES).fold(0, |bits, i| bits | u32::from(test(i)) << i)
+    }
+}
+
+impl Lanes for Portable {
+    type F = [f32; LANES];
+    type Stack<'r> = Stack<'r, false>;
+
+    #[inline(always)]
+    fn splat(self, x: f32) -> Self::F {
+        [x; LANES]
+    }
+
+    #[inline(always)]
+    fn load(self, row: &Row) -> Self::F {
+        row.0
+    }
+
+    #[inline(always)]
+    fn sub(self, a: Self::F, b: Self::F) -> Self::F {
+        Self::zip(a, b, |a, b| a - b)
+    }
+
+    #[inline(always)]
+    fn mul(self, a: Self::F, b: Self::F) -> Self::F {
+        Self::zip(a, b, |a, b| a * b)
+    }
+
+    #[inline(always)]
+    fn add(self, a: Self::F, b: Self::F) -> Self::F {
+        Self::zip(a, b, |a, b| a + b)
+    }
+
+    #[inline(always)]
+    fn div(self, a: Self::F, b: Self::F) -> Self::F {
+        Self::zip(a, b, |a, b| a / b)
+    }
+
+    #[inline(always)]
+    fn abs(self, a: Self::F) -> Self::F {
+        a.map(f32::abs)
+    }
+
+    #[inline(always)]
+    fn store(self, a: Self::F) -> Row {
+        Row(a)
+    }
+
+    #[inline(always)]
+    fn mul_sub(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F {
+        std::array::from_fn(|i| a[i] * b[i] - c[i])
+    }
+
+    #[inline(always)]
+    fn min(self, a: Self::F, b: Self::F) -> Self::F {
+        Self::zip(a, b, |a, b| if a < b { a } else { b })
+    }
+
+    #[inline(always)]
+    fn max(self, a: Self::F, b: Self::F) -> Self::F {
+        Self::zip(a, b, |a, b| if a > b { a } else { b })
+    }
+
+    #[inline(always)]
+    fn lt(self, a: Self::F, b: Self::F) -> u32 {
+        Self::bits(|i| a[i] < b[i])
+    }
+
+    #[inline(always)]
+    fn any_zero(self, a: Self::F, b: Self::F, c: Self::F) -> u32 {
+        Self::bits(|i| (a[i] == 0.0) | (b[i] == 0.0) | (c[i] == 0.0))
+    }
+
+    #[inline(always)]
+    fn mixed_signs(self, a: Self::F, b: Self::F, c: Self::F) -> u32 {
+        Self::bits(|i| {
+            let negative = (a[i] < 0.0) | (b[i] < 0.0) | (c[i] < 0.0);
+            let positive = (a[i] > 0.0) | (b[i] > 0.0) | (c[i] > 0.0);
+            negative & positive
+        })
+    }
+
+    #[inline(always)]
+    fn enter(
+        self,
+        stack: &mut Self::Stack<'_>,
+        near: Self::F,
+        far: Self::F,
+        children: &[u32; LANES],
+        order: u32,
+    ) -> u32 {
+        for place in (0..LANES).rev() {
+            let lane = (order >> (3 * place)) as usize % LANES;
+            if near[lane] <= far[lane] {
+                stack.push(children[lane], near[lane]);
+            }
+        }
+        stack.pop()
+    }
+}

@@ -1,0 +1,145 @@
+//! The stack of a walk: children still to be entered, with the distances at which the ray does.
+
+use super::LANES;
+use crate::bsp::params::MAX_DEPTH;
+use std::marker::PhantomData;
+use std::mem::MaybeUninit;
+
+/// Stands for a child where there are no more.
+pub(crate) const END: u32 = u32::MAX;
+
+/// Places of a stack: a node leaves at most seven children behind; rows are written whole.
+const PLACES: usize = (LANES - 1) * (MAX_DEPTH as usize + 1) + 3 * LANES;
+
+/// Room for a stack: places are written before they are read, because clearing them would cost more than a short walk.
+pub(crate) struct StackRoom(MaybeUninit<Places>);
+
+#[repr(C)]
+struct Places {
+    children: [u32; PLACES],
+    nears: [f32; PLACES],
+}
+
+impl StackRoom {
+    #[inline(always)]
+    pub(crate) fn new() -> Self {
+        Self(MaybeUninit::uninit())
+    }
+}
+
+/// What a walk does with its stack.
+pub(crate) trait Pending<'r> {
+    /// An empty stack.
+    fn new(room: &'r mut StackRoom) -> Self;
+
+    /// Takes the child on top; [`END`] where there is none.
+    fn pop(&mut self) -> u32;
+
+    /// Forgets all children that are entered beyond `limit`.
+    fn forget_beyond(&mut self, limit: f32);
+}
+
+/// A stack in its room. With `DOWN` it grows downward, so that the first lane of a row that is written is the one on top;
+/// otherwise upward, so that rows can be written whole.
+pub(crate) struct Stack<'r, const DOWN: bool> {
+    children: *mut u32,
+    nears: *mut f32,
+    /// The place on top; all from there to the bottom are written.
+    top: usize,
+    room: PhantomData<&'r mut StackRoom>,
+}
+
+impl<const DOWN: bool> Stack<'_, DOWN> {
+    /// The top of an empty stack.
+    const BOTTOM: usize = if DOWN { PLACES - LANES } else { LANES };
+
+    #[inline(always)]
+    fn write(&mut self, place: usize, child: u32, near: f32) {
+        debug_assert!(place < PLACES);
+        // SAFETY: only places of the stack are written.
+        unsafe {
+            self.children.add(place).write(child);
+            self.nears.add(place).write(near);
+        }
+    }
+
+    /// The place above another.
+    #[inline(always)]
+    fn above(place: usize) -> usize {
+        if DOWN { place - 1 } else { place + 1 }
+    }
+
+    /// Puts a child on top.
+    #[inline(always)]
+    pub(super) fn push(&mut self, child: u32, near: f32) {
+        self.check();
+        self.top = Self::above(self.top);
+        self.write(self.top, child, near);
+    }
+
+    /// # Panics
+    /// When there is no room for a row on top: the tree is deeper than any that is built.
+    #[inline(always)]
+    fn check(&self) {
+        let is_room = if DOWN { self.top >= LANES } else { self.top < PLACES - 2 * LANES };
+        assert!(is_room, "a walk is deeper than its stack");
+    }
+
+    /// Where a row of `count` children is to be written, downward with the top first, upward with the top last.
+    #[inline(always)]
+    pub(super) fn row(&mut self, count: usize) -> (*mut u32, *mut f32) {
+        self.check();
+        let start = if DOWN { self.top - count } else { self.top + 1 };
+        // SAFETY: there is room for a row.
+        unsafe { (self.children.add(start), self.nears.add(start)) }
+    }
+
+    /// Puts the row that was written on top but for its first child, which is taken at once; without any, the old top is.
+    #[inline(always)]
+    pub(super) fn take_one_of(&mut self, count: usize) {
+        self.top = if DOWN { self.top + 1 - count } else { self.top + count - 1 };
+    }
+
+    /// [`Stack::take_one_of`], and the child that is taken.
+    #[inline(always)]
+    pub(super) fn take_row(&mut self, count: usize) -> u32 {
+        self.take_one_of(count);
+        // SAFETY: the place is the one that was on top just now.
+        unsafe { self.children.add(Self::above(self.top)).read() }
+    }
+}
+
+impl<'r, const DOWN: bool> Pending<'r> for Stack<'r, DOWN> {
+    #[inline(always)]
+    fn new(room: &'r mut StackRoom) -> Self {
+        let places = room.0.as_mut_ptr();
+        // SAFETY: the places are there, if not yet written; these are their addresses.
+        let (children, nears) = unsafe { (&raw mut (*places).children, &raw mut (*places).nears) };
+        Self { children: children.cast(), nears: nears.cast(), top: Self::BOTTOM, room: PhantomData }
+    }
+
+    #[inline(always)]
+    fn pop(&mut self) -> u32 {
+        if self.top == Self::BOTTOM {
+            return END;
+        }
+        // SAFETY: the place is one of those that are written.
+        let child = unsafe { self.children.add(self.top).read() };
+        self.take_one_of(0);
+        child
+    }
+
+    #[inline(always)]
+    fn forget_beyond(&mut self, limit: f32) {
+        // From the bottom up, each child is moved over those that were forgotten.
+        let (mut from, mut to) = (Self::BOTTOM, Self::BOTTOM);
+        while from != self.top {
+            from = Self::above(from);
+            // SAFETY: the place is one of those that are written.
+            let (child, near) = unsafe { (self.children.add(from).read(), self.nears.add(from).read()) };
+            self.write(Self::above(to), child, near);
+            to = if near <= limit { Self::above(to) } else { to };
+        }
+        self.top = to;
+    }
+}

@@ -1,0 +1,270 @@
+//! The lanes on AVX2 and AVX-512.
+
+use super::portable::Portable;
+use super::{LANES, Lanes, Pending, Row, Stack, Task};
+use std::arch::x86_64::*;
+
+pub(super) fn has_avx2() -> bool {
+    is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") && is_x86_feature_detected!("popcnt")
+}
+
+pub(super) fn has_avx512() -> bool {
+    has_avx2()
+        && is_x86_feature_detected!("avx512f")
+        && is_x86_feature_detected!("avx512vl")
+        && is_x86_feature_detected!("avx512dq")
+        && is_x86_feature_detected!("bmi1")
+        && is_x86_feature_detected!("bmi2")
+        && is_x86_feature_detected!("lzcnt")
+}
+
+/// # Safety
+/// The processor must have SSE4.1.
+#[target_feature(enable = "sse4.1")]
+pub(super) unsafe fn run_sse41<T: Task>(task: T) -> T::Output {
+    task.run(Portable)
+}
+
+/// # Safety
+/// [`has_avx2`] must hold.
+#[target_feature(enable = "avx2,fma,popcnt")]
+pub(super) unsafe fn run_avx2<T: Task>(task: T) -> T::Output {
+    task.run(Avx2(()))
+}
+
+/// # Safety
+/// [`has_avx512`] must hold.
+#[target_feature(enable = "avx2,fma,popcnt,bmi1,bmi2,lzcnt,avx512f,avx512vl,avx512dq")]
+pub(super) unsafe fn run_avx512<T: Task>(task: T) -> T::Output {
+    task.run(Avx512(()))
+}
+
+/// Stands for [`has_avx2`]; made by [`run_avx2`] alone.
+#[derive(Clone, Copy)]
+pub(super) struct Avx2(());
+
+/// Stands for [`has_avx512`]; made by [`run_avx512`] alone.
+#[derive(Clone, Copy)]
+pub(super) struct Avx512(());
+
+/// For each set of lanes, the numbers of those in it, in order, in eight bytes.
+static PACKED: [u64; 256] = {
+    let mut table = [0_u64; 256];
+    let mut set = 0;
+    while set < 256 {
+        let (mut lane, mut place) = (0, 0);
+        while lane < LANES {
+            if set >> lane & 1 != 0 {
+                table[set] |= (lane as u64) << (8 * place);
+                place += 1;
+            }
+            lane += 1;
+        }
+        set += 1;
+    }
+    table
+};
+
+/// The methods that both kinds share.
+macro_rules! on_256_bits {
+    () => {
+        type F = __m256;
+
+        #[inline(always)]
+        fn splat(self, x: f32) -> __m256 {
+            // SAFETY (here and below): the value stands for a processor that has the instruction.
+            unsafe { _mm256_set1_ps(x) }
+        }
+
+        #[inline(always)]
+        fn load(self, row: &Row) -> __m256 {
+            // SAFETY: a row is eight aligned floats.
+            unsafe { _mm256_load_ps(row.0.as_ptr()) }
+        }
+
+        #[inline(always)]
+        fn sub(self, a: __m256, b: __m256) -> __m256 {
+            // SAFETY: see `splat`.
+            unsafe { _mm256_sub_ps(a, b) }
+        }
+
+        #[inline(always)]
+        fn mul(self, a: __m256, b: __m256) -> __m256 {
+            // SAFETY: see `splat`.
+            unsafe { _mm256_mul_ps(a, b) }
+        }
+
+        #[inline(always)]
+        fn add(self, a: __m256, b: __m256) -> __m256 {
+            // SAFETY: see `splat`.
+            unsafe { _mm256_add_ps(a, b) }
+        }
+
+        #[inline(always)]
+        fn div(self, a: __m256, b: __m256) -> __m256 {
+            // SAFETY: see `splat`.
+            unsafe { _mm256_div_ps(a, b) }
+        }
+
+        #[inline(always)]
+        fn abs(self, a: __m256) -> __m256 {
+            // SAFETY: see `splat`.
+            unsafe { _mm256_andnot_ps(_mm256_set1_ps(-0.0), a) }
+        }
+
+        #[inline(always)]
+        fn store(self, a: __m256) -> Row {
+            let mut row = Row([0.0; LANES]);
+            // SAFETY: a row is eight aligned floats.
+            unsafe { _mm256_store_ps(row.0.as_mut_ptr(), a) };
+            row
+        }
+
+        #[inline(always)]
+        fn mul_sub(self, a: __m256, b: __m256, c: __m256) -> __m256 {
+            // SAFETY: see `splat`.
+            unsafe { _mm256_fmsub_ps(a, b, c) }
+        }
+
+        #[inline(always)]
+        fn min(self, a: __m256, b: __m256) -> __m256 {
+            // SAFETY: see `splat`.
+            unsafe { _mm256_min_ps(a, b) }
+        }
+
+        #[inline(always)]
+        fn max(self, a: __m256, b: __m256) -> __m256 {
+            // SAFETY: see `splat`.
+            unsafe { _mm256_max_ps(a, b) }
+        }
+    };
+}
+
+impl Lanes for Avx2 {
+    type Stack<'r> = Stack<'r, false>;
+
+    on_256_bits!();
+
+    #[inline(always)]
+    fn lt(self, a: __m256, b: __m256) -> u32 {
+        // SAFETY: see `splat`.
+        unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(a, b)) as u32 }
+    }
+
+    #[inline(always)]
+    fn any_zero(self, a: __m256, b: __m256, c: __m256) -> u32 {
+        // SAFETY: see `splat`.
+        unsafe {
+            let zero = |x| _mm256_cmp_ps::<_CMP_EQ_OQ>(x, _mm256_setzero_ps());
+            _mm256_movemask_ps(_mm256_or_ps(_mm256_or_ps(zero(a), zero(b)), zero(c))) as u32
+        }
+    }
+
+    #[inline(always)]
+    fn mixed_signs(self, a: __m256, b: __m256, c: __m256) -> u32 {
+        // SAFETY: see `splat`.
+        unsafe {
+            let zero = _mm256_setzero_ps();
+            let below = |x| _mm256_cmp_ps::<_CMP_LT_OQ>(x, zero);
+            let above = |x| _mm256_cmp_ps::<_CMP_GT_OQ>(x, zero);
+            let negative = _mm256_or_ps(_mm256_or_ps(below(a), below(b)), below(c));
+            let positive = _mm256_or_ps(_mm256_or_ps(above(a), above(b)), above(c));
+            _mm256_movemask_ps(_mm256_and_ps(negative, positive)) as u32
+        }
+    }
+
+    #[inline(always)]
+    fn enter(
+        self,
+        stack: &mut Self::Stack<'_>,
+        near: __m256,
+        far: __m256,
+        children: &[u32; LANES],
+        order: u32,
+    ) -> u32 {
+        // SAFETY: see `splat`; a row fits at the room of the stack.
+        unsafe {
+            let shifts = _mm256_setr_epi32(21, 18, 15, 12, 9, 6, 3, 0);
+            let lanes = _mm256_srlv_epi32(_mm256_set1_epi32(order as i32), shifts);
+            let hit = _mm256_cmp_ps::<_CMP_LE_OQ>(near, far);
+            let hits = _mm256_movemask_ps(_mm256_permutevar8x32_ps(hit, lanes)) as u32;
+            let packed = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(PACKED[hits as usize & 255] as i64));
+            let lanes = _mm256_permutevar8x32_epi32(lanes, packed);
+            let children = _mm256_permutevar8x32_epi32(_mm256_loadu_si256(children.as_ptr().cast()), lanes);
+            let near = _mm256_permutevar8x32_ps(near, lanes);
+            if hits == 0 {
+                return stack.pop();
+            }
+            let count = hits.count_ones() as usize;
+            let (to_children, to_nears) = stack.row(count);
+            _mm256_storeu_si256(to_children.cast(), children);
+            _mm256_storeu_ps(to_nears, near);
+            stack.take_row(count)
+        }
+    }
+}
+
+impl Lanes for Avx512 {
+    type Stack<'r> = Stack<'r, true>;
+
+    on_256_bits!();
+
+    #[inline(always)]
+    fn lt(self, a: __m256, b: __m256) -> u32 {
+        // SAFETY: see `splat`.
+        unsafe { u32::from(_mm256_cmp_ps_mask::<_CMP_LT_OQ>(a, b)) }
+    }
+
+    #[inline(always)]
+    fn any_zero(self, a: __m256, b: __m256, c: __m256) -> u32 {
+        // SAFETY: see `splat`.
+        unsafe {
+            let zero = |x| _mm256_cmp_ps_mask::<_CMP_EQ_OQ>(x, _mm256_setzero_ps());
+            u32::from(zero(a) | zero(b) | zero(c))
+        }
+    }
+
+    #[inline(always)]
+    fn mixed_signs(self, a: __m256, b: __m256, c: __m256) -> u32 {
+        // SAFETY: see `splat`.
+        unsafe {
+            let zero = _mm256_setzero_ps();
+            let below = |x| _mm256_cmp_ps_mask::<_CMP_LT_OQ>(x, zero);
+            let above = |x| _mm256_cmp_ps_mask::<_CMP_GT_OQ>(x, zero);
+            u32::from((below(a) | below(b) | below(c)) & (above(a) | above(b) | above(c)))
+        }
+    }
+
+    #[inline(always)]
+    fn enter(
+        self,
+        stack: &mut Self::Stack<'_>,
+        near: __m256,
+        far: __m256,
+        children: &[u32; LANES],
+        order: u32,
+    ) -> u32 {
+        // SAFETY: see `splat`; a row fits at the room of the stack.
+        unsafe {
+            let shifts = _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21);
+            let lanes = _mm256_srlv_epi32(_mm256_set1_epi32(order as i32), shifts);
+            let near = _mm256_permutexvar_ps(lanes, near);
+            let far = _mm256_permutexvar_ps(lanes, far);
+            let children = _mm256_permutexvar_epi32(lanes, _mm256_loadu_si256(children.as_ptr().cast()));
+            let hits = _mm256_cmp_ps_mask::<_CMP_LE_OQ>(near, far);
+            if hits == 0 {
+                return stack.pop();
+            }
+            let children = _mm256_maskz_compress_epi32(hits, children);
+            let near = _mm256_maskz_compress_ps(hits, near);
+            let count = hits.count_ones() as usize;
+            let used = _bzhi_u32(0xFF, count as u32) as u8;
+            let (to_children, to_nears) = stack.row(count);
+            _mm256_mask_storeu_epi32(to_children.cast(), used, children);
+            _mm256_mask_storeu_ps(to_nears, used, near);
+            stack.take_one_of(count);
+            // The first lane is known sooner from its register.
+            _mm_cvtsi128_si32(_mm256_castsi256_si128(children)) as u32
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! Heliostat's trees.
+
+use crate::contestant::{Contestant, Query};
+use heliostat_geometry::{Ray, TriMesh};
+use heliostat_index::{Backend, BuildParams, MeshTree};
+
+/// A tree by one preset.
+pub(crate) struct Ours {
+    name: String,
+    pub(crate) tree: MeshTree,
+}
+
+impl Ours {
+    /// Builds the tree; `backend` in place of the best one, where given.
+    pub(crate) fn build(mesh: &TriMesh, preset: &str, backend: Option<Backend>) -> Result<Self, String> {
+        let params: BuildParams = preset.parse().map_err(|e| format!("{e}"))?;
+        let mut tree = MeshTree::build(mesh, &params).map_err(|e| e.to_string())?;
+        let mut name = format!("heliostat {preset}");
+        if let Some(backend) = backend {
+            tree = tree.with_backend(backend);
+            name = format!("{name}, {}", backend.name());
+        }
+        Ok(Self { name, tree })
+    }
+}
+
+impl Contestant for Ours {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn build_seconds(&self) -> f64 {
+        self.tree.stats().build_seconds
+    }
+
+    fn trace(&self, query: Query, rays: &[Ray], distances: &mut [f32]) {
+        match query {
+            Query::Closest => {
+                for (ray, distance) in rays.iter().zip(distances) {
+                    *distance = self.tree.closest_hit(ray).map_or(f32::INFINITY, |found| found.hit.t);
+                }
+            }
+            Query::Any => {
+                for (ray, distance) in rays.iter().zip(distances) {
+                    *distance = if self.tree.any_hit(ray) { 0.0 } else { f32::INFINITY };
+                }
+            }
+        }
+    }
+}
