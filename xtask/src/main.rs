@@ -56,6 +56,12 @@ enum Chore {
 enum Bench {
     /// Every scene at 1280x720 with 16 samples.
     Scenes,
+    /// The index against obvhs and, where its library is given, Embree; `-- --help` lists the flags.
+    Index {
+        /// Flags of the comparison.
+        #[arg(last = true)]
+        flags: Vec<String>,
+    },
     /// Against POV-Ray on the same scene, where povray is found.
     Peers {
         /// Rounds, in which both take turns.
@@ -71,6 +77,7 @@ fn main() -> ExitCode {
         Chore::Assets => assets::run(),
         Chore::Gallery { only, videos } => gallery::run(&only, videos),
         Chore::Bench(Bench::Scenes) => bench::scenes::run(),
+        Chore::Bench(Bench::Index { flags }) => bench::index(&flags),
         Chore::Bench(Bench::Peers { rounds }) => bench::peers::run(rounds),
         Chore::Golden { names } => golden(&names),
     };

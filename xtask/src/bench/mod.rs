@@ -3,9 +3,17 @@
 pub(crate) mod peers;
 pub(crate) mod scenes;
 
-use crate::process::say;
+use crate::Outcome;
+use crate::process::{cargo, run, say};
 use std::process::Command;
 use std::time::Instant;
+
+/// The index on its own, in a program of its own: it links what it is compared with.
+pub(crate) fn index(flags: &[String]) -> Outcome {
+    let mut args = vec!["run", "--release", "--package", "xtask-bench", "--"];
+    args.extend(flags.iter().map(String::as_str));
+    run(cargo(&args))
+}
 
 /// Seconds of wall clock that a command takes; fails when the command does.
 fn seconds(mut command: Command) -> Result<f64, String> {
