@@ -34,3 +34,33 @@ pub(crate) fn map_reduce<T, R>(
 ) -> Option<R> {
     items.chunks(chunk).map(map).reduce(reduce)
 }
+
+/// Maps chunks of `items`; the results are in order.
+#[cfg(feature = "parallel")]
+pub(crate) fn map_chunks<T: Sync, R: Send>(
+    items: &[T],
+    chunk: usize,
+    map: impl Fn(&[T]) -> R + Send + Sync,
+) -> Vec<R> {
+    use rayon::prelude::{IndexedParallelIterator, ParallelIterator, ParallelSlice};
+    items.par_chunks(chunk).with_min_len(256).map(map).collect()
+}
+
+/// Maps chunks of `items`, in order.
+#[cfg(not(feature = "parallel"))]
+pub(crate) fn map_chunks<T, R>(items: &[T], chunk: usize, map: impl Fn(&[T]) -> R) -> Vec<R> {
+    items.chunks(chunk).map(map).collect()
+}
+
+/// Maps the numbers below `count`; the results are in order.
+#[cfg(feature = "parallel")]
+pub(crate) fn map_numbers<R: Send>(count: u32, map: impl Fn(u32) -> R + Send + Sync) -> Vec<R> {
+    use rayon::prelude::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
+    (0..count).into_par_iter().with_min_len(4096).map(map).collect()
+}
+
+/// Maps the numbers below `count`, in order.
+#[cfg(not(feature = "parallel"))]
+pub(crate) fn map_numbers<R>(count: u32, map: impl Fn(u32) -> R) -> Vec<R> {
+    (0..count).map(map).collect()
+}

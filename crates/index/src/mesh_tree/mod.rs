@@ -9,6 +9,7 @@ mod search;
 use crate::bsp::build::{LeafLayout, build};
 use crate::bsp::visited::Visited;
 use crate::bsp::{BspTree, BuildError, BuildParams, TreeStats};
+use crate::parallel;
 use crate::simd::{Backend, LANES, Lanes, Task};
 use crate::wide::walk::{Counter, TraversalCost, Uncounted, walk};
 use block::Block;
@@ -68,8 +69,8 @@ impl MeshTree {
     pub fn build(mesh: &TriMesh, params: &BuildParams) -> Result<Self, BuildError> {
         mesh.validate().map_err(BuildError::Mesh)?;
         let tree = build(mesh, params, LeafLayout { group: LANES })?;
-        let groups = tree.leaf_refs().chunks(LANES);
-        let blocks = groups.map(|group| Block::new(group.iter().map(|&i| mesh.corners(i)))).collect();
+        let block = |group: &[u32]| Block::new(group.iter().map(|&i| mesh.corners(i)));
+        let blocks = parallel::map_chunks(tree.leaf_refs(), LANES, block);
         Ok(Self { tree, blocks })
     }
 

@@ -112,20 +112,14 @@ pub(crate) fn gather<P: Primitives + ?Sized>(
         .ok()
         .filter(|&n| n < u32::MAX)
         .ok_or(BuildError::TooLarge { what: "primitives" })?;
-    let mut refs = Vec::with_capacity(count as usize);
-    let mut unbounded = Vec::new();
-    for primitive in 0..count {
-        let bounds = primitives.bounds(primitive);
-        // A NaN makes a box empty as well.
-        if bounds.is_empty() {
-            return Err(BuildError::Bounds { primitive, bounds });
-        }
-        if bounds.is_finite() {
-            refs.push(Reference::new(primitive, bounds));
-        } else {
-            unbounded.push(primitive);
-        }
+    let all =
+        parallel::map_numbers(count, |primitive| Reference::new(primitive, primitives.bounds(primitive)));
+    // A NaN makes a box empty as well.
+    if let Some(empty) = all.iter().find(|r| r.bounds().is_empty()) {
+        return Err(BuildError::Bounds { primitive: empty.primitive(), bounds: empty.bounds() });
     }
+    let (refs, unbounded): (Vec<_>, Vec<_>) = all.into_iter().partition(|r| r.bounds().is_finite());
+    let unbounded = unbounded.iter().map(Reference::primitive).collect();
     Ok((refs, unbounded))
 }
 
