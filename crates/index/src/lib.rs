@@ -6,7 +6,11 @@
 //! primitive, always: slow and beyond doubt) and, with feature `reference`, the BVH of the `obvhs` crate.
 //!
 //! The tree knows its primitives only by their boxes ([`Primitives`]); what a hit *is* decides a closure of the
-//! caller. [`MeshTree`] is the same tree with the closure for triangle meshes built in.
+//! caller. [`MeshTree`] is the same tree with the test for triangle meshes built in, eight triangles at a time.
+//!
+//! What is built is binary: planes that cut cells. What rays walk is made from it: nodes of up to eight cells, each with the
+//! box of what is in it, compared with a ray all at once by the vector instructions that the processor turns out to have
+//! ([`Backend`]). Feature `parallel` builds on all threads of the current rayon pool; the tree is the same.
 //!
 //! ```
 //! use heliostat_geometry::{Aabb, Ray};
@@ -35,15 +39,16 @@
 //!
 //! # What holds
 //!
-//! - **Nothing is lost.** A cell ends a search, but never rejects a hit for lying an ulp outside; distances to
-//!   planes are grown by the rounding error of a ray ([`heliostat_geometry::error_bound::cell_padding`]), so a
+//! - **Nothing is lost.** A box ends a search, but never rejects a hit for lying an ulp outside; distances to its
+//!   sides are grown by the rounding error of a ray ([`heliostat_geometry::error_bound::cell_padding`]), so a
 //!   ray along a split plane sees both sides.
+//! - **Every back end finds the same**, to the bit, and so does brute force.
 //! - **Ties go to the lower primitive id**, in every structure: the answer does not depend on the tree.
 //! - **Building ends.** Depth, references and time are bounded for any input; see [`BuildParams`].
 //!
 //! # Reading order
 //!
-//! [`primitives`], [`query`], [`bsp`], [`brute`], [`mesh_tree`], [`verify`].
+//! [`primitives`], [`query`], [`bsp`], `wide`, `simd`, [`mesh_tree`], [`brute`], [`verify`].
 
 pub mod brute;
 pub mod bsp;

@@ -6,8 +6,9 @@
 //!
 //! # Reading order
 //!
-//! [`params`] says how a tree is built, `build` does it, with the planes that `split` and `sah` choose; `traverse`
-//! walks a ray through it. [`stats`], [`validate`] and [`export`] look at the result.
+//! [`params`] says how a tree is built; `build` does it, cell by cell, with the planes that `sah` or `split` choose.
+//! Rays walk another form of the tree, made at the end of the build: `wide`. [`stats`], [`validate`] and [`export`] look
+//! at the result.
 
 pub(crate) mod build;
 pub mod export;
