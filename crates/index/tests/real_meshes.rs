@@ -6,8 +6,11 @@
 
 mod support;
 
+use glam::Vec3;
+use heliostat_geometry::strategies::Random;
+use heliostat_geometry::{Ray, TriMesh};
 use heliostat_index::verify::{Agreement, Verifier};
-use heliostat_index::{BuildParams, MeshTree};
+use heliostat_index::{Backend, BuildParams, MeshTree};
 
 const PRESETS: [(&str, BuildParams); 2] =
     [("midpoint", BuildParams::MIDPOINT), ("balanced", BuildParams::BALANCED)];
@@ -56,6 +59,50 @@ fn trees_of_every_model_are_valid_and_bounded() {
             let stats = tree.tree().stats();
             let most = f64::from(params.max_duplication) * mesh.triangles.len() as f64 + 64.0;
             assert!(stats.references as f64 <= most, "{} {preset}: {stats:?}", path.display());
+        }
+    }
+}
+
+/// Points that rays in every direction leave through an odd number of triangles.
+fn points_inside(mesh: &TriMesh, tree: &MeshTree, random: &mut Random, count: usize) -> Vec<Vec3> {
+    let bounds = mesh.bounds();
+    let is_inside = |p: Vec3| {
+        let crossings = |dir: Vec3| {
+            let mut crossings = 0;
+            tree.for_each_hit(&Ray::new(p, dir), |_| crossings += 1);
+            crossings
+        };
+        [Vec3::X, Vec3::NEG_Y, Vec3::new(0.3, 0.5, -0.8)].into_iter().all(|dir| crossings(dir) % 2 == 1)
+    };
+    std::iter::repeat_with(|| bounds.centre() + 0.5 * random.cube() * bounds.size())
+        .filter(|&p| is_inside(p))
+        .take(count)
+        .collect()
+}
+
+#[test]
+fn no_ray_leaves_a_closed_mesh() {
+    let Some(path) = support::obj_files().into_iter().find(|path| path.ends_with("horse.obj")) else {
+        return;
+    };
+    let mesh = support::read_obj(&path);
+    let each = rays(2000);
+    for backend in Backend::available() {
+        let tree = MeshTree::build(&mesh, &BuildParams::BALANCED).unwrap().with_backend(backend);
+        let mut random = Random::new(7);
+        let inside = points_inside(&mesh, &tree, &mut random, 64);
+        let stops = |origin: Vec3, dir: Vec3| {
+            let ray = Ray::new(origin, dir);
+            assert!(tree.any_hit(&ray) && tree.closest_hit(&ray).is_some(), "{} {ray:?}", backend.name());
+        };
+        for i in 0..each {
+            let origin = inside[i as usize % inside.len()];
+            let [a, b, c] = mesh.corners(random.below(mesh.triangles.len()) as u32);
+            let (u, v) = (random.unit(), random.unit());
+            stops(origin, a - origin);
+            stops(origin, a.lerp(b, u) - origin);
+            stops(origin, a.lerp(b, u).lerp(c, v) - origin);
+            stops(origin, random.direction());
         }
     }
 }
