@@ -85,17 +85,26 @@ impl TriangleRay {
         self.slope
     }
 
-    /// Where the corners land in the plane across the ray, one lane each; the last lane is 0.
+    /// Where the corners land in the plane across the ray.
     ///
     /// It must stay a function of the ray and the corner alone: on that the watertightness rests.
     #[inline(always)]
-    fn project(&self, [a, b, c]: [Vec3; 3]) -> (Vec4, Vec4) {
+    fn project(&self, [a, b, c]: [Vec3; 3]) -> Projected {
         let origin = self.origin;
         let z = Vec4::new(a.z, b.z, c.z, origin.z) - origin.z;
         let x = Vec4::new(a.x, b.x, c.x, origin.x) - origin.x;
         let y = Vec4::new(a.y, b.y, c.y, origin.y) - origin.y;
-        (x - self.slope[0] * z, y - self.slope[1] * z)
+        let reach = x.abs().max(y.abs()).max(z.abs()).max_element();
+        Projected { x: x - self.slope[0] * z, y: y - self.slope[1] * z, reach }
     }
+}
+
+/// A triangle seen along a ray: a lane for each corner, the last lane is 0.
+struct Projected {
+    x: Vec4,
+    y: Vec4,
+    /// The largest coordinate of a corner, seen from the origin of the ray.
+    reach: f32,
 }
 
 /// Where a ray meets a triangle.
@@ -120,56 +129,80 @@ pub fn intersect(ray: &TriangleRay, range: Interval, corners: [Vec3; 3]) -> Opti
 /// [`intersect`] with the coordinates of the corners in the order of [`TriangleRay::origin`].
 #[inline(always)]
 pub fn intersect_turned(ray: &TriangleRay, range: Interval, corners: [Vec3; 3]) -> Option<TriangleHit> {
-    // Look down the ray: the origin becomes (0, 0), and the ray the point there. Lanes are the corners a, b, c.
-    let (x, y) = ray.project(corners);
+    // Look down the ray: the origin becomes (0, 0), and the ray the point there.
+    let seen = ray.project(corners);
+    let Projected { x, y, .. } = seen;
     // Twice the signed areas that the point spans with the edges opposite to a, b, c. The two products are rounded in
     // the same direction as they compare, so a sign is right or the difference is 0.
     let areas = x.zxyw() * y.yzxw() - y.zxyw() * x.yzxw();
-
     // The point is outside when it lies left of one edge and right of another.
     if areas.cmplt(Vec4::ZERO).any() && areas.cmpgt(Vec4::ZERO).any() {
         return None;
     }
 
     // What is left is likely a hit: decide it with products that `f64` holds exactly.
-    let weights = exact_weights(x, y)?;
-
-    // Find the distance to the plane, and see whether it counts.
-    let t = plane_distance(ray, corners, weights)? as f32;
-    let barycentric = weights.map(|weight| weight as f32);
-    (range.contains(t) && t < f32::INFINITY).then_some(TriangleHit { t, barycentric })
-}
-
-/// The barycentric weights of the point (0, 0) by edge functions whose products are exact; `None` when it is outside.
-#[inline(always)]
-fn exact_weights(x: Vec4, y: Vec4) -> Option<[f64; 3]> {
-    let [a, b, c] = [[x.x, y.x], [x.y, y.y], [x.z, y.z]].map(|p| p.map(f64::from));
-    let u = c[0] * b[1] - c[1] * b[0];
-    let v = a[0] * c[1] - a[1] * c[0];
-    let w = b[0] * a[1] - b[1] * a[0];
+    let [u, v, w] = exact_areas(&seen);
     if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
         return None;
     }
-    let area = u + v + w;
-    // A triangle seen edge on covers nothing; infinities and NaN end here too.
-    let scale = 1.0 / area;
-    scale.is_normal().then_some([u * scale, v * scale, w * scale])
+    let hit = hit_inside(ray, corners, &seen, [u, v, w])?;
+    range.contains(hit.t).then_some(hit)
 }
 
-/// The distance to the plane of a triangle that the line of the ray is known to meet; `None` behind the origin.
+/// [`intersect_turned`] for a triangle that is known to be hit, and to lie wholly ahead of the origin.
+///
+/// Known is what follows from the signs of the areas in [`intersect`]: none is 0, and all are alike. Anything may come of other
+/// triangles.
 #[inline(always)]
-fn plane_distance(ray: &TriangleRay, corners: [Vec3; 3], weights: [f64; 3]) -> Option<f64> {
+pub fn intersect_certainly(ray: &TriangleRay, corners: [Vec3; 3]) -> Option<TriangleHit> {
+    let seen = ray.project(corners);
+    hit_inside(ray, corners, &seen, exact_areas(&seen))
+}
+
+/// Twice the areas that the point (0, 0) spans with the edges, from exact products.
+#[inline(always)]
+fn exact_areas(&Projected { x, y, .. }: &Projected) -> [f64; 3] {
+    let (ax, bx, cx) = (f64::from(x.x), f64::from(x.y), f64::from(x.z));
+    let (ay, by, cy) = (f64::from(y.x), f64::from(y.y), f64::from(y.z));
+    [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax]
+}
+
+/// The hit of a ray whose line meets the triangle; `None` where that is seen edge on or lies behind the origin.
+#[inline(always)]
+fn hit_inside(
+    ray: &TriangleRay,
+    corners: [Vec3; 3],
+    seen: &Projected,
+    areas: [f64; 3],
+) -> Option<TriangleHit> {
+    let area = areas[0] + areas[1] + areas[2];
+    // A triangle seen edge on covers nothing; infinities and NaN end here too.
+    let scale = 1.0 / area;
+    if !scale.is_normal() {
+        return None;
+    }
+    let weights = [areas[0] * scale, areas[1] * scale, areas[2] * scale];
+    let t = plane_distance(ray, corners, weights, seen.reach)? as f32;
+    let barycentric = [weights[0] as f32, weights[1] as f32, weights[2] as f32];
+    (t < f32::INFINITY).then_some(TriangleHit { t, barycentric })
+}
+
+/// The distance to the plane of a triangle that the line of the ray is known to meet; `None` behind the origin. `reach` is the
+/// largest coordinate of a corner, seen from the origin.
+#[inline(always)]
+fn plane_distance(ray: &TriangleRay, corners: [Vec3; 3], weights: [f64; 3], reach: f32) -> Option<f64> {
     let (origin, dir) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
     let normal = normal(corners);
     if normal == DVec3::ZERO {
         return None;
     }
-    let [a, b, c] = corners;
-    let (a, b, c) = (a.as_dvec3() - origin, b.as_dvec3() - origin, c.as_dvec3() - origin);
+    let a = corners[0].as_dvec3() - origin;
 
     // Where the test across the ray saw the hit, along the sheared axis: a place of the triangle itself.
     let inverse = 1.0 / dir.z;
-    let (at_a, at_b, at_c) = (a.z * inverse, b.z * inverse, c.z * inverse);
+    let at_a = a.z * inverse;
+    let at_b = (f64::from(corners[1].z) - origin.z) * inverse;
+    let at_c = (f64::from(corners[2].z) - origin.z) * inverse;
     let seen = weights[0] * at_a + weights[1] * at_b + weights[2] * at_c;
     let nearest = lesser(lesser(at_a, at_b), at_c);
     let farthest = greater(greater(at_a, at_b), at_c);
@@ -184,8 +217,7 @@ fn plane_distance(ray: &TriangleRay, corners: [Vec3; 3], weights: [f64; 3]) -> O
     }
     // The plane of a triangle seen almost edge on may be met far from it: hold the quotient to the place where the
     // triangle was seen, give or take the displacement of its corners, and to the triangle.
-    let reach = a.abs().max(b.abs()).max(c.abs()).max_element();
-    let slack = f64::from(sheared_corner(reach as f32)) * inverse.abs();
+    let slack = f64::from(sheared_corner(reach)) * inverse.abs();
     let held = lesser(greater(lesser(greater(t, seen - slack), seen + slack), nearest), farthest);
     (t > 0.0 || is_ahead).then_some(held)
 }

@@ -8,7 +8,9 @@ use crate::simd::{LANES, Lanes, Pick, Row};
 use glam::Vec3;
 use heliostat_geometry::Interval;
 use heliostat_geometry::error_bound::{gamma, sheared_corner};
-use heliostat_geometry::triangle::{TriangleHit, TriangleRay, intersect_turned, is_flat};
+use heliostat_geometry::triangle::{
+    TriangleHit, TriangleRay, intersect_certainly, intersect_turned, is_flat,
+};
 
 /// The corners a, b, c of eight triangles: for each corner a row of x, of y and of z.
 #[derive(Clone, Copy, Debug)]
@@ -74,12 +76,24 @@ impl BlockRay {
     /// The exact test of one triangle.
     #[inline(always)]
     pub(super) fn hit(&self, block: &Block, lane: usize, range: Interval) -> Option<TriangleHit> {
+        intersect_turned(&self.sheared, range, self.corners(block, lane))
+    }
+
+    /// The exact hit of a triangle that the lanes are certain of.
+    #[inline(always)]
+    pub(super) fn certain_hit(&self, block: &Block, lane: usize) -> Option<TriangleHit> {
+        intersect_certainly(&self.sheared, self.corners(block, lane))
+    }
+
+    /// The corners of a triangle, the axis along which the ray runs fastest last.
+    #[inline(always)]
+    fn corners(&self, block: &Block, lane: usize) -> [Vec3; 3] {
         let [p, q, r] = self.axes;
         let corner = |i: usize| {
             let rows = &block.0[i];
             Vec3::new(p.of(rows).0[lane], q.of(rows).0[lane], r.of(rows).0[lane])
         };
-        intersect_turned(&self.sheared, range, [corner(0), corner(1), corner(2)])
+        [corner(0), corner(1), corner(2)]
     }
 
     /// The triangles that may be hit between the distances `min` and `max`.

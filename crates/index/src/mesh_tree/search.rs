@@ -64,7 +64,11 @@ impl<'t> Nearest<'t> {
     /// The nearest hit.
     #[inline(always)]
     pub(super) fn finish(self) -> Option<MeshHit> {
-        self.triangles.hit(self.best?)
+        // Whatever put it in front of the others was certain.
+        let slot = self.best?;
+        let Triangles { blocks, ids, block_ray, .. } = &self.triangles;
+        let hit = block_ray.certain_hit(&blocks[slot / LANES], slot % LANES)?;
+        Some(MeshHit { triangle: ids[slot], hit })
     }
 
     /// Whether the triangle in a lane is the nearest one so far, met in another leaf.
