@@ -44,10 +44,10 @@ pub(super) fn run(scene: &Scene, presets: &[Preset], rays: u32) -> Result<Verifi
     Ok(Verified { agrees, text, json: json!(meshes) })
 }
 
-/// One ray in how many brute force judges, so that it takes minutes at most; the others are judged where the trees and the
+/// One ray in how many brute force judges, so that it takes about a minute at most; the others are judged where the trees and the
 /// bounding volume hierarchy differ.
 fn judge_every(rays: u64, triangles: u64) -> u64 {
-    const MOST_TESTS: u64 = 20_000_000_000;
+    const MOST_TESTS: u64 = 4_000_000_000;
     (rays.saturating_mul(triangles) / MOST_TESTS).max(1)
 }
 
