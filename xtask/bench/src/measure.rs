@@ -1,8 +1,9 @@
-//! Taking turns: each chunk of rays is traced by all, in rotating order, round after round.
+//! Taking turns: each chunk of rays is traced by all, in rotating order, round after round. What counts is the time of the
+//! processor, so that other programs on the machine cost no one a turn.
 
 use crate::contestant::Contestant;
 use crate::rays::RaySet;
-use std::time::Instant;
+use cpu_time::ThreadTime;
 
 /// Rays that one traces before it is the next one's turn.
 const CHUNK: usize = 8192;
@@ -10,7 +11,7 @@ const CHUNK: usize = 8192;
 /// What one made of a set of rays.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Score {
-    /// Million rays per second: all rays over the sum of each chunk's median time.
+    /// Million rays per second: all rays over the sum of each chunk's median processor time.
     pub(crate) rate: f64,
     /// Rays with a hit.
     pub(crate) hits: usize,
@@ -27,7 +28,7 @@ pub(crate) fn measure(all: &[Box<dyn Contestant>], set: &RaySet, rounds: usize) 
             for turn in 0..all.len() {
                 let who = (number + round + turn) % all.len();
                 let to = &mut distances[..chunk.len()];
-                let begin = Instant::now();
+                let begin = ThreadTime::now();
                 all[who].trace(set.query, chunk, to);
                 times[who].push(begin.elapsed().as_secs_f64());
                 if round == 0 {

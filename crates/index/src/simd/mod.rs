@@ -65,6 +65,10 @@ pub(crate) trait Lanes: Copy {
     fn min(self, a: Self::F, b: Self::F) -> Self::F;
     /// The larger; `b` where one is NaN.
     fn max(self, a: Self::F, b: Self::F) -> Self::F;
+    /// The smaller; where one is negative, a negative one.
+    fn sooner(self, a: Self::F, b: Self::F) -> Self::F;
+    /// The larger; where both are negative, either.
+    fn later(self, a: Self::F, b: Self::F) -> Self::F;
     /// A bit for each lane in which `a < b`.
     fn lt(self, a: Self::F, b: Self::F) -> u32;
     /// A bit for each lane that has a zero.

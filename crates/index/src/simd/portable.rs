@@ -78,6 +78,16 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
+    fn sooner(self, a: Self::F, b: Self::F) -> Self::F {
+        self.min(a, b)
+    }
+
+    #[inline(always)]
+    fn later(self, a: Self::F, b: Self::F) -> Self::F {
+        self.max(a, b)
+    }
+
+    #[inline(always)]
     fn lt(self, a: Self::F, b: Self::F) -> u32 {
         Self::bits(|i| a[i] < b[i])
     }

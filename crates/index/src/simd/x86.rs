@@ -137,6 +137,19 @@ macro_rules! on_256_bits {
             // SAFETY: see `splat`.
             unsafe { _mm256_max_ps(a, b) }
         }
+
+        #[inline(always)]
+        fn sooner(self, a: __m256, b: __m256) -> __m256 {
+            // The bits of floats compare as signed integers do, but for the order among negative ones; and sooner.
+            // SAFETY: see `splat`.
+            unsafe { _mm256_castsi256_ps(_mm256_min_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b))) }
+        }
+
+        #[inline(always)]
+        fn later(self, a: __m256, b: __m256) -> __m256 {
+            // SAFETY: see `splat`.
+            unsafe { _mm256_castsi256_ps(_mm256_max_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b))) }
+        }
     };
 }
 

@@ -186,8 +186,8 @@ impl<L: Lanes> Meet<L> for Boxes<L> {
             let plane = lanes.load(self.sides.far[axis].of(&node.planes));
             lanes.mul_sub(plane, self.inverse[axis], self.far_offset[axis])
         };
-        let enter = lanes.max(lanes.max(near(0), near(1)), lanes.max(near(2), self.start));
-        let leave = lanes.min(lanes.min(far(0), far(1)), lanes.min(far(2), lanes.splat(limit)));
+        let enter = lanes.later(lanes.later(near(0), near(1)), lanes.later(near(2), self.start));
+        let leave = lanes.sooner(lanes.sooner(far(0), far(1)), lanes.sooner(far(2), lanes.splat(limit)));
         (enter, leave)
     }
 }
