@@ -181,9 +181,20 @@ pub fn clipped_corner(extent: f32) -> f64 {
 pub fn inverse_direction(dir: Vec3A) -> Vec3A {
     const SMALLEST: f32 = 1e-20;
     let size = dir.abs();
-    let fastest = size.max_element();
-    let floor = if fastest > 1e8 * SMALLEST { SMALLEST } else { UNIT_ROUNDOFF * UNIT_ROUNDOFF * fastest };
-    1.0 / size.max(Vec3A::splat(floor)).copysign(dir)
+    if size.max_element() > 1e8 * SMALLEST {
+        1.0 / size.max(Vec3A::splat(SMALLEST)).copysign(dir)
+    } else {
+        inverse_of_tiny(dir)
+    }
+}
+
+/// [`inverse_direction`] of one that is not much longer than what counts as nothing there.
+#[cold]
+#[inline(never)]
+fn inverse_of_tiny(dir: Vec3A) -> Vec3A {
+    let size = dir.abs();
+    let smallest = UNIT_ROUNDOFF * UNIT_ROUNDOFF * size.max_element();
+    1.0 / size.max(Vec3A::splat(smallest)).copysign(dir)
 }
 
 /// Bound of the rounding, in `f32`, of the discriminant of a line and a sphere: `r^2 d^2 - |l x d|^2` with the radius `r`, the

@@ -4,15 +4,15 @@
 //! to, and the sign of an edge function is exact; so neighbours agree on which side of their edge the ray
 //! passes. Both sides of a triangle are hit. This module knows one triangle; the arrays are in [`crate::mesh`].
 //!
-//! The distance is not interpolated in `f32` as in the paper but taken from the plane in `f64`, so that a ray that
-//! [`crate::Hit::spawn`] moved off the triangle sees it behind itself, at any scale.
+//! Distance and weights are not those of the `f32` verdict but worked out again in `f64`, where the ray truly meets the
+//! plane, so that a ray that [`crate::Hit::spawn`] moved off the triangle sees it behind itself, at any scale.
 //!
 //! # Source
 //! Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
 
 use crate::error_bound::sheared_corner;
 use crate::ray::{Interval, Ray};
-use glam::{DVec3, Vec3, Vec4, Vec4Swizzles};
+use glam::{BVec3A, DVec3, Vec3, Vec3A, Vec3Swizzles, Vec4, Vec4Swizzles};
 
 /// A ray with the shear that turns its direction into the third axis, worked out once per ray.
 ///
@@ -37,12 +37,12 @@ pub struct TriangleRay {
 
 /// The coordinates in cyclic order, axis `along` last.
 ///
-/// They are looked up rather than branched on: which axis it is, is hard to foresee.
+/// Both turns are made and one is selected: which axis it is, is hard to foresee, and a look into memory takes long.
 #[inline(always)]
-fn turned(along: usize, Vec3 { x, y, z }: Vec3) -> Vec3 {
-    let twice = [x, y, z, x, y];
-    let along = along % 3;
-    Vec3::new(twice[along + 1], twice[along + 2], twice[along])
+fn turned(along: usize, v: Vec3) -> Vec3 {
+    let v = Vec3A::from(v);
+    let (is_x, is_y) = (BVec3A::splat(along == 0), BVec3A::splat(along == 1));
+    Vec3A::select(is_x, v.yzx(), Vec3A::select(is_y, v.zxy(), v)).into()
 }
 
 impl TriangleRay {
@@ -145,31 +145,64 @@ pub fn intersect_turned(ray: &TriangleRay, range: Interval, corners: [Vec3; 3]) 
     if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
         return None;
     }
-    let hit = hit_inside(ray, corners, &seen, [u, v, w])?;
+    let hit = match hit_inside(ray, corners) {
+        Some((t, barycentric)) if t > 0.0 && !is_flat(corners) => TriangleHit { t: t as f32, barycentric },
+        Some(_) => return None,
+        None => hit_at_rim(ray, corners, &seen, [u, v, w])?,
+    };
     range.contains(hit.t).then_some(hit)
 }
 
-/// [`intersect_turned`] for a triangle that is known to be hit, and to lie wholly ahead of the origin.
+/// [`intersect_turned`] for a triangle that is known to be hit.
 ///
-/// Known is what follows from the signs of the areas in [`intersect`]: none is 0, and all are alike. Anything may come of other
-/// triangles.
+/// Known is what follows from the signs of the areas in [`intersect`]: none is 0, and all are alike; and from its distance.
+/// Anything may come of other triangles.
 #[inline(always)]
 pub fn intersect_certainly(ray: &TriangleRay, corners: [Vec3; 3]) -> Option<TriangleHit> {
-    let seen = ray.project(corners);
-    hit_inside(ray, corners, &seen, exact_areas(&seen))
+    match hit_inside(ray, corners) {
+        Some((t, barycentric)) => Some(TriangleHit { t: t as f32, barycentric }),
+        None => {
+            let seen = ray.project(corners);
+            hit_at_rim(ray, corners, &seen, exact_areas(&seen))
+        }
+    }
 }
 
 /// Twice the areas that the point (0, 0) spans with the edges, from exact products.
 #[inline(always)]
 fn exact_areas(&Projected { x, y, .. }: &Projected) -> [f64; 3] {
-    let (ax, bx, cx) = (f64::from(x.x), f64::from(x.y), f64::from(x.z));
-    let (ay, by, cy) = (f64::from(y.x), f64::from(y.y), f64::from(y.z));
+    areas([x.x, x.y, x.z].map(f64::from), [y.x, y.y, y.z].map(f64::from))
+}
+
+/// Twice the areas that the point (0, 0) spans with the edges opposite to the three corners.
+#[inline(always)]
+fn areas([ax, bx, cx]: [f64; 3], [ay, by, cy]: [f64; 3]) -> [f64; 3] {
     [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax]
 }
 
-/// The hit of a ray whose line meets the triangle; `None` where that is seen edge on or lies behind the origin.
+/// Distance and weights of the corners where the ray meets the triangle, in `f64`; `None` where rounding might put that outside.
 #[inline(always)]
-fn hit_inside(
+fn hit_inside(ray: &TriangleRay, corners: [Vec3; 3]) -> Option<(f64, [f32; 3])> {
+    let (origin, dir) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
+    let inverse = 1.0 / dir.z;
+    let slope = [dir.x * inverse, dir.y * inverse];
+    let [a, b, c] = corners.map(|corner| corner.as_dvec3() - origin);
+    let depth = [a.z, b.z, c.z];
+    let x = [a.x - slope[0] * depth[0], b.x - slope[0] * depth[1], c.x - slope[0] * depth[2]];
+    let y = [a.y - slope[1] * depth[0], b.y - slope[1] * depth[1], c.y - slope[1] * depth[2]];
+    let [u, v, w] = areas(x, y);
+    let is_inside = ((u > 0.0) & (v > 0.0) & (w > 0.0)) | ((u < 0.0) & (v < 0.0) & (w < 0.0));
+    let share = 1.0 / (u + v + w);
+    let t = (u * depth[0] + v * depth[1] + w * depth[2]) * share * inverse;
+    let barycentric = [(u * share) as f32, (v * share) as f32, (w * share) as f32];
+    (is_inside & (t.abs() < f64::from(f32::MAX))).then_some((t, barycentric))
+}
+
+/// The hit of a ray that meets a triangle where its corners are seen, but so near to an edge, or so near to seeing it edge on,
+/// that it may truly miss; `None` where it is seen edge on or lies behind the origin.
+#[cold]
+#[inline(never)]
+fn hit_at_rim(
     ray: &TriangleRay,
     corners: [Vec3; 3],
     seen: &Projected,
@@ -189,7 +222,6 @@ fn hit_inside(
 
 /// The distance to the plane of a triangle that the line of the ray is known to meet; `None` behind the origin. `reach` is the
 /// largest coordinate of a corner, seen from the origin.
-#[inline(always)]
 fn plane_distance(ray: &TriangleRay, corners: [Vec3; 3], weights: [f64; 3], reach: f32) -> Option<f64> {
     let (origin, dir) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
     let normal = normal(corners);
@@ -200,12 +232,10 @@ fn plane_distance(ray: &TriangleRay, corners: [Vec3; 3], weights: [f64; 3], reac
 
     // Where the test across the ray saw the hit, along the sheared axis: a place of the triangle itself.
     let inverse = 1.0 / dir.z;
-    let at_a = a.z * inverse;
-    let at_b = (f64::from(corners[1].z) - origin.z) * inverse;
-    let at_c = (f64::from(corners[2].z) - origin.z) * inverse;
-    let seen = weights[0] * at_a + weights[1] * at_b + weights[2] * at_c;
-    let nearest = lesser(lesser(at_a, at_b), at_c);
-    let farthest = greater(greater(at_a, at_b), at_c);
+    let at = corners.map(|corner| (f64::from(corner.z) - origin.z) * inverse);
+    let seen = weights[0] * at[0] + weights[1] * at[1] + weights[2] * at[2];
+    let nearest = at[0].min(at[1]).min(at[2]);
+    let farthest = at[0].max(at[1]).max(at[2]);
 
     // The sign of the quotient decides only when the triangle reaches back to the origin: a triangle that is wholly
     // ahead is hit, or a ray along a silhouette could leave a closed mesh.
@@ -218,7 +248,7 @@ fn plane_distance(ray: &TriangleRay, corners: [Vec3; 3], weights: [f64; 3], reac
     // The plane of a triangle seen almost edge on may be met far from it: hold the quotient to the place where the
     // triangle was seen, give or take the displacement of its corners, and to the triangle.
     let slack = f64::from(sheared_corner(reach)) * inverse.abs();
-    let held = lesser(greater(lesser(greater(t, seen - slack), seen + slack), nearest), farthest);
+    let held = t.max(seen - slack).min(seen + slack).max(nearest).min(farthest);
     (t > 0.0 || is_ahead).then_some(held)
 }
 
@@ -233,16 +263,4 @@ fn normal(corners: [Vec3; 3]) -> DVec3 {
 /// Whether a triangle has no area, so that [`intersect`] never hits it.
 pub fn is_flat(corners: [Vec3; 3]) -> bool {
     normal(corners) == DVec3::ZERO
-}
-
-/// The smaller of two numbers, without a thought for NaN.
-#[inline(always)]
-fn lesser(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
-}
-
-/// The larger of two numbers, without a thought for NaN.
-#[inline(always)]
-fn greater(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
 }

@@ -1,35 +1,42 @@
 //! Eight triangles side by side, and the test of a ray against all of them.
 //!
-//! The lanes answer only which triangles a ray *may* meet, in the very arithmetic of
-//! [`heliostat_geometry::triangle::intersect`]; that function then decides, one triangle at a time. So a hit is what it is
-//! for any other caller of that function, to the bit.
+//! The lanes answer which triangles a ray may meet, in the very arithmetic of [`heliostat_geometry::triangle::intersect`], and
+//! where, with a bound of the error; that function then says exactly where, for the one triangle that counts. So a hit is what
+//! it is for any other caller of that function, to the bit.
 
 use crate::simd::{LANES, Lanes, Pick, Row};
 use glam::Vec3;
 use heliostat_geometry::Interval;
-use heliostat_geometry::error_bound::{gamma, sheared_corner};
-use heliostat_geometry::triangle::{
-    TriangleHit, TriangleRay, intersect_certainly, intersect_turned, is_flat,
-};
+use heliostat_geometry::error_bound::gamma;
+use heliostat_geometry::triangle::{TriangleHit, TriangleRay, intersect_certainly, is_flat};
 
-/// The corners a, b, c of eight triangles: for each corner a row of x, of y and of z.
+/// Eight triangles: for each axis a row of the corners a, of b and of c.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub(super) struct Block([[Row; 3]; 3]);
 
 impl Block {
-    /// Triangles side by side. One without area is laid out as NaN: then what the lanes are certain of is a hit.
-    pub(super) fn new(triangles: impl Iterator<Item = [Vec3; 3]>) -> Self {
+    /// Triangles side by side, and a bit for each that is there. Those without area are left out: what the lanes are certain of
+    /// is then a hit.
+    pub(super) fn new(triangles: impl Iterator<Item = Option<[Vec3; 3]>>) -> (Self, u8) {
         let mut block = Self([[Row([0.0; LANES]); 3]; 3]);
+        let mut present = 0;
         for (lane, corners) in triangles.enumerate() {
-            let corners = if is_flat(corners) { [Vec3::NAN; 3] } else { corners };
-            for (rows, corner) in block.0.iter_mut().zip(corners) {
-                for (row, x) in rows.iter_mut().zip(corner.to_array()) {
-                    row.0[lane] = x;
+            let Some(corners) = corners.filter(|&corners| !is_flat(corners)) else { continue };
+            present |= 1 << lane;
+            for (axis, rows) in block.0.iter_mut().enumerate() {
+                for (row, corner) in rows.iter_mut().zip(corners) {
+                    row.0[lane] = corner[axis];
                 }
             }
         }
-        block
+        (block, present)
+    }
+
+    /// The corners of a triangle.
+    pub(super) fn corners(&self, lane: usize) -> [Vec3; 3] {
+        let corner = |i: usize| Vec3::from_array(std::array::from_fn(|axis| self.0[axis][i].0[lane]));
+        [corner(0), corner(1), corner(2)]
     }
 }
 
@@ -37,131 +44,113 @@ impl Block {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BlockRay {
     /// The axes in cyclic order, the one along which the ray runs fastest last.
-    axes: [Pick<3>; 3],
-    sheared: TriangleRay,
+    axes: [Pick<[Row; 3], 3>; 3],
+    turned: TriangleRay,
     /// One over the direction along the last axis.
     inverse: f32,
-    /// Bound of the error of a distance by rounding of corners, and of the distance between where a triangle is seen and where
-    /// it is said to be.
-    slack: f32,
 }
 
 /// Triangles of a block that a ray may meet.
 pub(super) struct Candidates<F> {
     /// A bit for each.
     pub(super) lanes: u32,
-    /// A bit for each that lies wholly ahead, with bounds between those asked for.
-    pub(super) within: u32,
-    /// A bit for each whose edge the ray may meet exactly.
-    pub(super) on_edge: u32,
+    /// A bit for each that is surely met between the distances asked for.
+    pub(super) certain: u32,
     /// Bounds of the distances.
     pub(super) low: F,
     pub(super) high: F,
 }
 
 impl BlockRay {
-    /// `reach` is the largest distance along an axis to any corner that the ray will be compared with.
     #[inline(always)]
-    pub(super) fn new(ray: &TriangleRay, reach: f32) -> Self {
+    pub(super) fn new(ray: &TriangleRay) -> Self {
         let along = ray.along();
-        let inverse = 1.0 / ray.dir().z;
         Self {
             axes: [Pick::new(along + 1), Pick::new(along + 2), Pick::new(along)],
-            sheared: *ray,
-            inverse,
-            slack: (sheared_corner(reach) + gamma(16) * reach) * inverse.abs(),
+            turned: *ray,
+            inverse: 1.0 / ray.dir().z,
         }
-    }
-
-    /// The exact test of one triangle.
-    #[inline(always)]
-    pub(super) fn hit(&self, block: &Block, lane: usize, range: Interval) -> Option<TriangleHit> {
-        intersect_turned(&self.sheared, range, self.corners(block, lane))
     }
 
     /// The exact hit of a triangle that the lanes are certain of.
     #[inline(always)]
     pub(super) fn certain_hit(&self, block: &Block, lane: usize) -> Option<TriangleHit> {
-        intersect_certainly(&self.sheared, self.corners(block, lane))
+        let [x, y, z] = [self.axes[0].of(&block.0), self.axes[1].of(&block.0), self.axes[2].of(&block.0)];
+        let lane = Pick::<f32, LANES>::new(lane);
+        let corner = |i: usize| Vec3::new(*lane.of(&x[i].0), *lane.of(&y[i].0), *lane.of(&z[i].0));
+        intersect_certainly(&self.turned, [corner(0), corner(1), corner(2)])
     }
 
-    /// The corners of a triangle, the axis along which the ray runs fastest last.
-    #[inline(always)]
-    fn corners(&self, block: &Block, lane: usize) -> [Vec3; 3] {
-        let [p, q, r] = self.axes;
-        let corner = |i: usize| {
-            let rows = &block.0[i];
-            Vec3::new(p.of(rows).0[lane], q.of(rows).0[lane], r.of(rows).0[lane])
-        };
-        [corner(0), corner(1), corner(2)]
-    }
-
-    /// The triangles that may be hit between the distances `min` and `max`.
+    /// The triangles among those present that may be hit between the distances `min` and `max`.
     #[inline(always)]
     pub(super) fn meet<L: Lanes>(
         &self,
         lanes: L,
         block: &Block,
-        min: f32,
-        max: f32,
+        present: u8,
+        Interval { min, max }: Interval,
     ) -> Option<Candidates<L::F>> {
         // Look down the ray. (No `map` of arrays here: the compiler does not make it part of the function, and out of line it
         // knows nothing of the lanes.)
-        let [p, q, r] = self.axes;
-        let [a, b, c] = &block.0;
-        let origin = lanes.splat(self.sheared.origin().z);
-        let a_depth = lanes.sub(lanes.load(r.of(a)), origin);
-        let b_depth = lanes.sub(lanes.load(r.of(b)), origin);
-        let c_depth = lanes.sub(lanes.load(r.of(c)), origin);
-        let (origin, slope) = (lanes.splat(self.sheared.origin().x), lanes.splat(self.sheared.slope()[0]));
-        let ax = lanes.sub(lanes.sub(lanes.load(p.of(a)), origin), lanes.mul(slope, a_depth));
-        let bx = lanes.sub(lanes.sub(lanes.load(p.of(b)), origin), lanes.mul(slope, b_depth));
-        let cx = lanes.sub(lanes.sub(lanes.load(p.of(c)), origin), lanes.mul(slope, c_depth));
-        let (origin, slope) = (lanes.splat(self.sheared.origin().y), lanes.splat(self.sheared.slope()[1]));
-        let ay = lanes.sub(lanes.sub(lanes.load(q.of(a)), origin), lanes.mul(slope, a_depth));
-        let by = lanes.sub(lanes.sub(lanes.load(q.of(b)), origin), lanes.mul(slope, b_depth));
-        let cy = lanes.sub(lanes.sub(lanes.load(q.of(c)), origin), lanes.mul(slope, c_depth));
+        let [a, b, c] = self.axes[2].of(&block.0);
+        let origin = lanes.splat(self.turned.origin().z);
+        let a_depth = lanes.sub(lanes.load(a), origin);
+        let b_depth = lanes.sub(lanes.load(b), origin);
+        let c_depth = lanes.sub(lanes.load(c), origin);
+        let [a, b, c] = self.axes[0].of(&block.0);
+        let (origin, slope) = (lanes.splat(self.turned.origin().x), lanes.splat(self.turned.slope()[0]));
+        let ax = lanes.sub(lanes.sub(lanes.load(a), origin), lanes.mul(slope, a_depth));
+        let bx = lanes.sub(lanes.sub(lanes.load(b), origin), lanes.mul(slope, b_depth));
+        let cx = lanes.sub(lanes.sub(lanes.load(c), origin), lanes.mul(slope, c_depth));
+        let [a, b, c] = self.axes[1].of(&block.0);
+        let (origin, slope) = (lanes.splat(self.turned.origin().y), lanes.splat(self.turned.slope()[1]));
+        let ay = lanes.sub(lanes.sub(lanes.load(a), origin), lanes.mul(slope, a_depth));
+        let by = lanes.sub(lanes.sub(lanes.load(b), origin), lanes.mul(slope, b_depth));
+        let cy = lanes.sub(lanes.sub(lanes.load(c), origin), lanes.mul(slope, c_depth));
         // Twice the areas that the ray's point spans with the edges opposite to a, b, c, as differences of products.
-        let (cb, bc) = (lanes.mul(cx, by), lanes.mul(cy, bx));
-        let (ac, ca) = (lanes.mul(ax, cy), lanes.mul(ay, cx));
-        let (ba, ab) = (lanes.mul(bx, ay), lanes.mul(by, ax));
-        let (u, v, w) = (lanes.sub(cb, bc), lanes.sub(ac, ca), lanes.sub(ba, ab));
-        let inside = !lanes.mixed_signs(u, v, w) & 0xFF;
+        let u = lanes.sub(lanes.mul(cx, by), lanes.mul(cy, bx));
+        let v = lanes.sub(lanes.mul(ax, cy), lanes.mul(ay, cx));
+        let w = lanes.sub(lanes.mul(bx, ay), lanes.mul(by, ax));
+        let inside = !lanes.mixed_signs(u, v, w) & u32::from(present);
         if inside == 0 {
             return None;
         }
 
         // The mean of the depths, weighted by the areas.
-        let weighted = lanes.add(lanes.mul(u, a_depth), lanes.mul(v, b_depth));
-        let weighted = lanes.add(weighted, lanes.mul(w, c_depth));
-        let area = lanes.add(lanes.add(u, v), w);
-        let share = lanes.div(lanes.splat(1.0), area);
-        let inverse = lanes.splat(self.inverse);
-        let distance = lanes.mul(lanes.mul(weighted, share), inverse);
-        // Rounding moves the areas by a few roundings of their products, and so the mean by as large a part of the span of the
-        // depths as these are of the whole area.
-        let products =
-            lanes.add(lanes.add(lanes.abs(cb), lanes.abs(bc)), lanes.add(lanes.abs(ac), lanes.abs(ca)));
-        let products = lanes.add(products, lanes.add(lanes.abs(ba), lanes.abs(ab)));
+        let weighted = lanes.mul_add(w, c_depth, lanes.mul_add(v, b_depth, lanes.mul(u, a_depth)));
+        let share = lanes.div(lanes.splat(1.0), lanes.add(lanes.add(u, v), w));
+        let distance = lanes.mul(lanes.mul(weighted, share), lanes.splat(self.inverse));
         let farthest = lanes.max(lanes.max(a_depth, b_depth), c_depth);
         let nearest = lanes.min(lanes.min(a_depth, b_depth), c_depth);
-        let span = lanes.mul(lanes.sub(farthest, nearest), lanes.splat(gamma(8) * self.inverse));
-        let moved = lanes.abs(lanes.mul(lanes.mul(products, share), span));
-        let error = lanes.add(moved, lanes.splat(self.slack));
+        let x = lanes.larger_size(lanes.larger_size(ax, bx), cx);
+        let y = lanes.larger_size(lanes.larger_size(ay, by), cy);
+        let size = lanes.larger_size(x, y);
+        let reach = lanes.add(lanes.larger_size(nearest, farthest), size);
+        let error = self.error(lanes, reach, size, lanes.mul(lanes.sub(farthest, nearest), share));
 
         let (low, high) = (lanes.sub(distance, error), lanes.add(distance, error));
         let (min, max) = (lanes.splat(min), lanes.splat(max));
         let candidates = inside & !lanes.lt(high, min) & !lanes.lt(max, low);
-        // Where a triangle reaches back behind the origin, only its plane can tell.
-        let zero = lanes.splat(0.0);
-        let ahead =
-            lanes.lt(zero, lanes.mul(nearest, inverse)) & lanes.lt(zero, lanes.mul(farthest, inverse));
         (candidates != 0).then_some(Candidates {
             lanes: candidates,
-            within: lanes.lt(min, low) & lanes.lt(high, max) & ahead,
-            on_edge: lanes.any_zero(u, v, w),
+            certain: candidates & lanes.lt(min, low) & lanes.lt(high, max) & !lanes.any_zero(u, v, w),
             low,
             high,
         })
+    }
+
+    /// Bound of how far the distance of a hit may lie from the exact one, or from that of the plane of the triangle.
+    ///
+    /// The corners lie up to `reach` from the origin along an axis, up to `size` beside the ray; `span` is the difference of
+    /// their depths over the area. Rounding moves the corners across the ray by up to `shift`
+    /// ([`heliostat_geometry::error_bound::sheared_corner`]). With the rounding of the products that moves the three areas,
+    /// together, by up to `18 * shift * (size + shift)`, and the mean by as large a part of the span as this is of the whole
+    /// area; twice that, where the ray misses the moved triangle by so little. And the mean itself is rounded.
+    #[inline(always)]
+    fn error<L: Lanes>(&self, lanes: L, reach: L::F, size: L::F, span: L::F) -> L::F {
+        let shift = lanes.mul(reach, lanes.splat(gamma(6)));
+        let turn = lanes.mul(lanes.add(size, shift), lanes.larger_size(span, span));
+        let part = lanes.mul_add(turn, lanes.splat(36.0), lanes.splat(4.0));
+        lanes.mul(lanes.mul(shift, lanes.splat(self.inverse.abs())), part)
     }
 }

@@ -15,7 +15,7 @@ use crate::wide::walk::{Counter, TraversalCost, Uncounted, walk};
 use block::Block;
 use heliostat_geometry::triangle::{TriangleHit, TriangleRay, intersect};
 use heliostat_geometry::{Ray, TriMesh};
-use search::{Any, Each, Nearest, Triangles};
+use search::{Any, Each, Nearest};
 
 /// A hit on a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +59,8 @@ pub struct MeshTree {
     tree: BspTree,
     /// The triangles of the references of the tree, group by group.
     blocks: Vec<Block>,
+    /// For each block, a bit for each lane that holds a triangle.
+    present: Vec<u8>,
 }
 
 impl MeshTree {
@@ -69,9 +71,12 @@ impl MeshTree {
     pub fn build(mesh: &TriMesh, params: &BuildParams) -> Result<Self, BuildError> {
         mesh.validate().map_err(BuildError::Mesh)?;
         let tree = build(mesh, params, LeafLayout { group: LANES })?;
-        let block = |group: &[u32]| Block::new(group.iter().map(|&i| mesh.corners(i)));
-        let blocks = parallel::map_chunks(tree.leaf_refs(), LANES, block);
-        Ok(Self { tree, blocks })
+        // What fills a group up repeats its last triangle.
+        let is_new = |group: &[u32], lane: usize| lane == 0 || group[lane] != group[lane - 1];
+        let triangle = |group: &[u32], lane: usize| is_new(group, lane).then(|| mesh.corners(group[lane]));
+        let block = |group: &[u32]| Block::new((0..LANES).map(|lane| triangle(group, lane)));
+        let (blocks, present) = parallel::map_chunks(tree.leaf_refs(), LANES, block).into_iter().unzip();
+        Ok(Self { tree, blocks, present })
     }
 
     /// The tree inside.
@@ -82,7 +87,7 @@ impl MeshTree {
     /// [`BspTree::stats`], with the bytes of the triangles that were laid out.
     pub fn stats(&self) -> TreeStats {
         let stats = self.tree.stats();
-        TreeStats { bytes: stats.bytes + self.blocks.len() * size_of::<Block>(), ..stats }
+        TreeStats { bytes: stats.bytes + self.blocks.len() * (size_of::<Block>() + 1), ..stats }
     }
 
     /// The same tree, walked by another back end.
@@ -135,9 +140,9 @@ impl<C: Counter> Task for Closest<'_, C> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> Option<MeshHit> {
-        let Self { tree: MeshTree { tree, blocks }, ray, counter } = self;
-        let mut search = Nearest::new(Triangles::new(blocks, tree, ray));
-        walk(lanes, tree.wide(), ray, ray.range.max, &mut search, counter);
+        let Self { tree, ray, counter } = self;
+        let mut search = Nearest::new(tree, ray);
+        walk(lanes, tree.tree.wide(), ray, ray.range.max, &mut search, counter);
         search.finish()
     }
 }
@@ -153,9 +158,9 @@ impl Task for Occluded<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> bool {
-        let Self { tree: MeshTree { tree, blocks }, ray } = self;
-        let mut search = Any::new(Triangles::new(blocks, tree, ray));
-        walk(lanes, tree.wide(), ray, ray.range.max, &mut search, &mut Uncounted);
+        let Self { tree, ray } = self;
+        let mut search = Any::new(tree, ray);
+        walk(lanes, tree.tree.wide(), ray, ray.range.max, &mut search, &mut Uncounted);
         search.found
     }
 }
@@ -172,9 +177,9 @@ impl<V: FnMut(MeshHit)> Task for Visit<'_, V> {
 
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
-        let Self { tree: MeshTree { tree, blocks }, ray, visit } = self;
-        let mut search = Each { triangles: Triangles::new(blocks, tree, ray), visit };
-        walk(lanes, tree.wide(), ray, ray.range.max, &mut search, &mut Uncounted);
+        let Self { tree, ray, visit } = self;
+        let mut search = Each::new(tree, ray, visit);
+        walk(lanes, tree.tree.wide(), ray, ray.range.max, &mut search, &mut Uncounted);
     }
 }
 

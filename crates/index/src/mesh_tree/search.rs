@@ -5,37 +5,36 @@
 //! once, at the end. Where it is not enough (at an edge, at the ends of the range, on coincident triangles), the exact test
 //! decides at once.
 
-use super::MeshHit;
 use super::block::{Block, BlockRay};
-use crate::bsp::BspTree;
+use super::{MeshHit, MeshTree};
 use crate::simd::{LANES, Lanes};
 use crate::wide::walk::{Counter, Search};
-use heliostat_geometry::Ray;
-use heliostat_geometry::triangle::TriangleRay;
+use heliostat_geometry::triangle::{TriangleRay, intersect};
+use heliostat_geometry::{Interval, Ray};
 
-/// The triangles of a tree, as a ray sees them.
-pub(super) struct Triangles<'t> {
-    blocks: &'t [Block],
-    /// The triangle in each lane of each block.
-    ids: &'t [u32],
-    block_ray: BlockRay,
-    ray: &'t Ray,
+/// The exact test of the triangle in a lane, counted over all blocks.
+///
+/// It knows the ray as it came: what is prepared for lanes can then stay in registers.
+fn exact(tree: &MeshTree, ray: &Ray, slot: usize) -> Option<MeshHit> {
+    let corners = tree.blocks[slot / LANES].corners(slot % LANES);
+    let hit = intersect(&TriangleRay::new(ray), ray.range, corners)?;
+    Some(MeshHit { triangle: tree.tree.leaf_refs()[slot], hit })
 }
 
-impl<'t> Triangles<'t> {
-    #[inline(always)]
-    pub(super) fn new(blocks: &'t [Block], tree: &'t BspTree, ray: &'t Ray) -> Self {
-        let reach = tree.wide().room.reach(ray.origin.into());
-        let block_ray = BlockRay::new(&TriangleRay::new(ray), reach);
-        Self { blocks, ids: tree.leaf_refs(), block_ray, ray }
-    }
+/// Whether the exact test hits.
+#[cold]
+#[inline(never)]
+fn hits(tree: &MeshTree, ray: &Ray, slot: usize) -> bool {
+    exact(tree, ray, slot).is_some()
+}
 
-    /// The exact test of the triangle in a lane, counted over all blocks.
-    #[inline(always)]
-    pub(super) fn hit(&self, slot: usize) -> Option<MeshHit> {
-        let hit = self.block_ray.hit(&self.blocks[slot / LANES], slot % LANES, self.ray.range)?;
-        Some(MeshHit { triangle: self.ids[slot], hit })
-    }
+/// The distance of the triangle in a lane if it beats the nearest one so far, in another lane, by the exact test of both.
+#[cold]
+#[inline(never)]
+fn overtakes(tree: &MeshTree, ray: &Ray, slot: usize, best: Option<usize>) -> Option<f32> {
+    let candidate = exact(tree, ray, slot)?;
+    let best = best.and_then(|best| exact(tree, ray, best));
+    candidate.beats(best.as_ref()).then_some(candidate.hit.t)
 }
 
 /// The first block of a leaf, and how many there are.
@@ -44,9 +43,20 @@ fn blocks_of(leaf: u32) -> (usize, usize) {
     ((leaf & 0xFF_FFFF) as usize, (leaf >> 24) as usize)
 }
 
+impl MeshTree {
+    /// The number of the first block of a leaf, its blocks, and for each the lanes that hold a triangle.
+    #[inline(always)]
+    fn leaf(&self, leaf: u32) -> (usize, &[Block], &[u8]) {
+        let (first, count) = blocks_of(leaf);
+        (first, &self.blocks[first..][..count], &self.present[first..][..count])
+    }
+}
+
 /// Looks for the nearest hit.
 pub(super) struct Nearest<'t> {
-    triangles: Triangles<'t>,
+    tree: &'t MeshTree,
+    ray: &'t Ray,
+    block_ray: BlockRay,
     /// The lane of the nearest hit so far.
     best: Option<usize>,
     /// Bounds of its distance; the end of the ray's range where there is none.
@@ -56,9 +66,9 @@ pub(super) struct Nearest<'t> {
 
 impl<'t> Nearest<'t> {
     #[inline(always)]
-    pub(super) fn new(triangles: Triangles<'t>) -> Self {
-        let end = triangles.ray.range.max;
-        Self { triangles, best: None, low: end, high: end }
+    pub(super) fn new(tree: &'t MeshTree, ray: &'t Ray) -> Self {
+        let end = ray.range.max;
+        Self { tree, ray, block_ray: BlockRay::new(&TriangleRay::new(ray)), best: None, low: end, high: end }
     }
 
     /// The nearest hit.
@@ -66,50 +76,40 @@ impl<'t> Nearest<'t> {
     pub(super) fn finish(self) -> Option<MeshHit> {
         // Whatever put it in front of the others was certain.
         let slot = self.best?;
-        let Triangles { blocks, ids, block_ray, .. } = &self.triangles;
-        let hit = block_ray.certain_hit(&blocks[slot / LANES], slot % LANES)?;
-        Some(MeshHit { triangle: ids[slot], hit })
+        let hit = self.block_ray.certain_hit(&self.tree.blocks[slot / LANES], slot % LANES)?;
+        Some(MeshHit { triangle: self.tree.tree.leaf_refs()[slot], hit })
     }
 
     /// Whether the triangle in a lane is the nearest one so far, met in another leaf.
     #[inline(always)]
     fn is_best(&self, slot: usize) -> bool {
-        let ids = self.triangles.ids;
+        let ids = self.tree.tree.leaf_refs();
         self.best.is_some_and(|best| ids[best] == ids[slot])
-    }
-
-    /// Compares a candidate with the nearest hit by the exact test of both.
-    #[cold]
-    #[inline(never)]
-    fn decide(&mut self, slot: usize) {
-        let Some(candidate) = self.triangles.hit(slot) else { return };
-        let best = self.best.and_then(|best| self.triangles.hit(best));
-        if candidate.beats(best.as_ref()) {
-            (self.best, self.low, self.high) = (Some(slot), candidate.hit.t, candidate.hit.t);
-        }
     }
 }
 
 impl Search for Nearest<'_> {
     #[inline(always)]
     fn leaf<L: Lanes>(&mut self, lanes: L, leaf: u32, counter: &mut impl Counter) -> f32 {
-        let (first, count) = blocks_of(leaf);
-        counter.leaf(LANES * count);
-        let start = greater(self.triangles.ray.range.min, 0.0);
-        for (number, block) in (first..).zip(&self.triangles.blocks[first..first + count]) {
-            let Some(found) = self.triangles.block_ray.meet(lanes, block, start, self.high) else { continue };
+        counter.leaf(LANES * blocks_of(leaf).1);
+        let start = greater(self.ray.range.min, 0.0);
+        let (first, blocks, present) = self.tree.leaf(leaf);
+        for (i, block) in blocks.iter().enumerate() {
+            let range = Interval { min: start, max: self.high };
+            let Some(found) = self.block_ray.meet(lanes, block, present[i], range) else { continue };
             let (lows, highs) = (lanes.store(found.low), lanes.store(found.high));
             let mut candidates = found.lanes;
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize % LANES;
                 candidates &= candidates - 1;
-                let slot = LANES * number + lane;
+                let slot = LANES * (first + i) + lane;
                 let (low, high) = (lows.0[lane], highs.0[lane]);
-                let is_certain = high < self.low && (found.within & !found.on_edge) >> lane & 1 != 0;
-                if is_certain {
+                if high < self.low && found.certain >> lane & 1 != 0 {
                     (self.best, self.low, self.high) = (Some(slot), low, high);
-                } else if !self.is_best(slot) {
-                    self.decide(slot);
+                } else if !self.is_best(slot)
+                    && let Some(t) = overtakes(self.tree, self.ray, slot, self.best)
+                {
+                    (self.best, self.low, self.high) = (Some(slot), t, t);
                 }
             }
         }
@@ -119,40 +119,33 @@ impl Search for Nearest<'_> {
 
 /// Looks for any hit.
 pub(super) struct Any<'t> {
-    triangles: Triangles<'t>,
+    tree: &'t MeshTree,
+    ray: &'t Ray,
+    block_ray: BlockRay,
     pub(super) found: bool,
 }
 
 impl<'t> Any<'t> {
     #[inline(always)]
-    pub(super) fn new(triangles: Triangles<'t>) -> Self {
-        Self { triangles, found: false }
-    }
-
-    /// The exact test of a triangle.
-    #[cold]
-    #[inline(never)]
-    fn decide(&self, slot: usize) -> bool {
-        self.triangles.hit(slot).is_some()
+    pub(super) fn new(tree: &'t MeshTree, ray: &'t Ray) -> Self {
+        Self { tree, ray, block_ray: BlockRay::new(&TriangleRay::new(ray)), found: false }
     }
 }
 
 impl Search for Any<'_> {
     #[inline(always)]
     fn leaf<L: Lanes>(&mut self, lanes: L, leaf: u32, counter: &mut impl Counter) -> f32 {
-        let (first, count) = blocks_of(leaf);
-        counter.leaf(LANES * count);
-        let range = self.triangles.ray.range;
-        let start = greater(range.min, 0.0);
-        for (number, block) in (first..).zip(&self.triangles.blocks[first..first + count]) {
-            let Some(found) = self.triangles.block_ray.meet(lanes, block, start, range.max) else { continue };
-            let certain = found.lanes & found.within & !found.on_edge;
-            let mut doubtful = if certain == 0 { found.lanes } else { 0 };
-            self.found = certain != 0;
+        counter.leaf(LANES * blocks_of(leaf).1);
+        let range = Interval { min: greater(self.ray.range.min, 0.0), ..self.ray.range };
+        let (first, blocks, present) = self.tree.leaf(leaf);
+        for (i, block) in blocks.iter().enumerate() {
+            let Some(found) = self.block_ray.meet(lanes, block, present[i], range) else { continue };
+            let mut doubtful = if found.certain == 0 { found.lanes } else { 0 };
+            self.found = found.certain != 0;
             while doubtful != 0 && !self.found {
                 let lane = doubtful.trailing_zeros() as usize % LANES;
                 doubtful &= doubtful - 1;
-                self.found = self.decide(LANES * number + lane);
+                self.found = hits(self.tree, self.ray, LANES * (first + i) + lane);
             }
             if self.found {
                 return f32::NEG_INFINITY;
@@ -164,25 +157,32 @@ impl Search for Any<'_> {
 
 /// Shows all hits to a closure.
 pub(super) struct Each<'t, V> {
-    pub(super) triangles: Triangles<'t>,
-    pub(super) visit: V,
+    tree: &'t MeshTree,
+    ray: &'t Ray,
+    block_ray: BlockRay,
+    visit: V,
+}
+
+impl<'t, V: FnMut(MeshHit)> Each<'t, V> {
+    #[inline(always)]
+    pub(super) fn new(tree: &'t MeshTree, ray: &'t Ray, visit: V) -> Self {
+        Self { tree, ray, block_ray: BlockRay::new(&TriangleRay::new(ray)), visit }
+    }
 }
 
 impl<V: FnMut(MeshHit)> Search for Each<'_, V> {
     #[inline(always)]
     fn leaf<L: Lanes>(&mut self, lanes: L, leaf: u32, counter: &mut impl Counter) -> f32 {
-        let (first, count) = blocks_of(leaf);
-        counter.leaf(LANES * count);
-        let range = self.triangles.ray.range;
-        for (number, block) in (first..).zip(&self.triangles.blocks[first..first + count]) {
-            let Some(found) = self.triangles.block_ray.meet(lanes, block, range.min, range.max) else {
-                continue;
-            };
+        counter.leaf(LANES * blocks_of(leaf).1);
+        let range = self.ray.range;
+        let (first, blocks, present) = self.tree.leaf(leaf);
+        for (i, block) in blocks.iter().enumerate() {
+            let Some(found) = self.block_ray.meet(lanes, block, present[i], range) else { continue };
             let mut candidates = found.lanes;
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize % LANES;
                 candidates &= candidates - 1;
-                if let Some(hit) = self.triangles.hit(LANES * number + lane) {
+                if let Some(hit) = exact(self.tree, self.ray, LANES * (first + i) + lane) {
                     (self.visit)(hit);
                 }
             }

@@ -5,8 +5,8 @@
 //! compiler made for it. [`portable::Portable`] does everything on plain arrays: it is the twin that the others are held to,
 //! the form that Miri reads, and what processors without a back end of their own use.
 //!
-//! All back ends do the same operations in the same order and round alike, except in [`Lanes::mul_sub`], which only the
-//! conservative box test uses; so the hits they find are the same, to the bit.
+//! Back ends may differ in what [`Lanes::mul_add`] and [`Lanes::mul_sub`] round; these are for distances that carry a bound of
+//! their error. All else they round alike, and what is found in the end is decided by the same exact test.
 
 #![expect(unsafe_code, reason = "vector instructions, uninitialised stacks and rows chosen by a ray")]
 
@@ -17,6 +17,8 @@ mod x86;
 
 pub(crate) use stack::{END, Pending, Stack, StackRoom};
 
+use std::marker::PhantomData;
+
 /// How many lanes there are.
 pub(crate) const LANES: usize = 8;
 
@@ -26,21 +28,34 @@ pub(crate) const LANES: usize = 8;
 pub(crate) struct Row(pub(crate) [f32; LANES]);
 
 /// A place in an array of `N`, chosen by a ray and then used without a check.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Pick<const N: usize>(usize);
+#[derive(Debug)]
+pub(crate) struct Pick<T, const N: usize> {
+    /// In bytes: the product would be made again at each use.
+    offset: usize,
+    of: PhantomData<T>,
+}
 
-impl<const N: usize> Pick<N> {
+impl<T, const N: usize> Clone for Pick<T, N> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T, const N: usize> Copy for Pick<T, N> {}
+
+impl<T, const N: usize> Pick<T, N> {
     /// The place `i`, taken modulo the size of the array.
     #[inline(always)]
     pub(crate) fn new(i: usize) -> Self {
-        Self(i % N)
+        Self { offset: i % N * size_of::<T>(), of: PhantomData }
     }
 
     /// What is there.
     #[inline(always)]
-    pub(crate) fn of<T>(self, items: &[T; N]) -> &T {
-        // SAFETY: the place is less than `N`.
-        unsafe { items.get_unchecked(self.0) }
+    pub(crate) fn of(self, items: &[T; N]) -> &T {
+        // SAFETY: it is the offset of a place less than `N`.
+        unsafe { &*items.as_ptr().byte_add(self.offset) }
     }
 }
 
@@ -57,10 +72,11 @@ pub(crate) trait Lanes: Copy {
     fn mul(self, a: Self::F, b: Self::F) -> Self::F;
     fn add(self, a: Self::F, b: Self::F) -> Self::F;
     fn div(self, a: Self::F, b: Self::F) -> Self::F;
-    fn abs(self, a: Self::F) -> Self::F;
     fn store(self, a: Self::F) -> Row;
     /// `a * b - c`, rounded once or twice.
     fn mul_sub(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F;
+    /// `a * b + c`, rounded once or twice.
+    fn mul_add(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F;
     /// The smaller; `b` where one is NaN.
     fn min(self, a: Self::F, b: Self::F) -> Self::F;
     /// The larger; `b` where one is NaN.
@@ -69,11 +85,13 @@ pub(crate) trait Lanes: Copy {
     fn sooner(self, a: Self::F, b: Self::F) -> Self::F;
     /// The larger; where both are negative, either.
     fn later(self, a: Self::F, b: Self::F) -> Self::F;
+    /// The larger of the absolute values; any of them where one is NaN.
+    fn larger_size(self, a: Self::F, b: Self::F) -> Self::F;
     /// A bit for each lane in which `a < b`.
     fn lt(self, a: Self::F, b: Self::F) -> u32;
     /// A bit for each lane that has a zero.
     fn any_zero(self, a: Self::F, b: Self::F, c: Self::F) -> u32;
-    /// A bit for each lane that has one number below 0 and another above.
+    /// A bit for each lane that has one number below 0 and another above; either where one is NaN.
     fn mixed_signs(self, a: Self::F, b: Self::F, c: Self::F) -> u32;
 
     /// The stack of a walk.

@@ -53,11 +53,6 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
-    fn abs(self, a: Self::F) -> Self::F {
-        a.map(f32::abs)
-    }
-
-    #[inline(always)]
     fn store(self, a: Self::F) -> Row {
         Row(a)
     }
@@ -65,6 +60,11 @@ impl Lanes for Portable {
     #[inline(always)]
     fn mul_sub(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F {
         std::array::from_fn(|i| a[i] * b[i] - c[i])
+    }
+
+    #[inline(always)]
+    fn mul_add(self, a: Self::F, b: Self::F, c: Self::F) -> Self::F {
+        std::array::from_fn(|i| a[i] * b[i] + c[i])
     }
 
     #[inline(always)]
@@ -85,6 +85,11 @@ impl Lanes for Portable {
     #[inline(always)]
     fn later(self, a: Self::F, b: Self::F) -> Self::F {
         self.max(a, b)
+    }
+
+    #[inline(always)]
+    fn larger_size(self, a: Self::F, b: Self::F) -> Self::F {
+        Self::zip(a, b, |a, b| if a.abs() > b.abs() { a.abs() } else { b.abs() })
     }
 
     #[inline(always)]

@@ -107,12 +107,6 @@ macro_rules! on_256_bits {
         }
 
         #[inline(always)]
-        fn abs(self, a: __m256) -> __m256 {
-            // SAFETY: see `splat`.
-            unsafe { _mm256_andnot_ps(_mm256_set1_ps(-0.0), a) }
-        }
-
-        #[inline(always)]
         fn store(self, a: __m256) -> Row {
             let mut row = Row([0.0; LANES]);
             // SAFETY: a row is eight aligned floats.
@@ -124,6 +118,12 @@ macro_rules! on_256_bits {
         fn mul_sub(self, a: __m256, b: __m256, c: __m256) -> __m256 {
             // SAFETY: see `splat`.
             unsafe { _mm256_fmsub_ps(a, b, c) }
+        }
+
+        #[inline(always)]
+        fn mul_add(self, a: __m256, b: __m256, c: __m256) -> __m256 {
+            // SAFETY: see `splat`.
+            unsafe { _mm256_fmadd_ps(a, b, c) }
         }
 
         #[inline(always)]
@@ -153,6 +153,18 @@ macro_rules! on_256_bits {
     };
 }
 
+/// The largest of the numbers, or one below 0 where none is larger than 0; and the one farthest below 0, or one above: as integers,
+/// which compare sooner.
+#[inline(always)]
+unsafe fn extremes(a: __m256, b: __m256, c: __m256) -> (__m256i, __m256i) {
+    // SAFETY: the caller has AVX2.
+    unsafe {
+        let (a, b, c) = (_mm256_castps_si256(a), _mm256_castps_si256(b), _mm256_castps_si256(c));
+        // The sign bit of a float makes it small among signed integers, and large among unsigned ones.
+        (_mm256_max_epi32(_mm256_max_epi32(a, b), c), _mm256_max_epu32(_mm256_max_epu32(a, b), c))
+    }
+}
+
 impl Lanes for Avx2 {
     type Stack<'r> = Stack<'r, false>;
 
@@ -177,12 +189,21 @@ impl Lanes for Avx2 {
     fn mixed_signs(self, a: __m256, b: __m256, c: __m256) -> u32 {
         // SAFETY: see `splat`.
         unsafe {
-            let zero = _mm256_setzero_ps();
-            let below = |x| _mm256_cmp_ps::<_CMP_LT_OQ>(x, zero);
-            let above = |x| _mm256_cmp_ps::<_CMP_GT_OQ>(x, zero);
-            let negative = _mm256_or_ps(_mm256_or_ps(below(a), below(b)), below(c));
-            let positive = _mm256_or_ps(_mm256_or_ps(above(a), above(b)), above(c));
-            _mm256_movemask_ps(_mm256_and_ps(negative, positive)) as u32
+            let (highest, lowest) = extremes(a, b, c);
+            let positive = _mm256_cmpgt_epi32(highest, _mm256_setzero_si256());
+            // Beyond -0.0: with the sign bit turned, among signed integers.
+            let turned = _mm256_xor_si256(lowest, _mm256_set1_epi32(i32::MIN));
+            let negative = _mm256_cmpgt_epi32(turned, _mm256_setzero_si256());
+            _mm256_movemask_ps(_mm256_castsi256_ps(_mm256_and_si256(negative, positive))) as u32
+        }
+    }
+
+    #[inline(always)]
+    fn larger_size(self, a: __m256, b: __m256) -> __m256 {
+        // SAFETY: see `splat`.
+        unsafe {
+            let sign = _mm256_set1_ps(-0.0);
+            _mm256_max_ps(_mm256_andnot_ps(sign, a), _mm256_andnot_ps(sign, b))
         }
     }
 
@@ -241,11 +262,20 @@ impl Lanes for Avx512 {
     fn mixed_signs(self, a: __m256, b: __m256, c: __m256) -> u32 {
         // SAFETY: see `splat`.
         unsafe {
-            let zero = _mm256_setzero_ps();
-            let below = |x| _mm256_cmp_ps_mask::<_CMP_LT_OQ>(x, zero);
-            let above = |x| _mm256_cmp_ps_mask::<_CMP_GT_OQ>(x, zero);
-            u32::from((below(a) | below(b) | below(c)) & (above(a) | above(b) | above(c)))
+            let (highest, lowest) = extremes(a, b, c);
+            let positive = _mm256_cmpgt_epi32_mask(highest, _mm256_setzero_si256());
+            // Beyond -0.0.
+            let negative = _mm256_cmpgt_epu32_mask(lowest, _mm256_set1_epi32(i32::MIN));
+            u32::from(negative & positive)
         }
+    }
+
+    #[inline(always)]
+    fn larger_size(self, a: __m256, b: __m256) -> __m256 {
+        // The larger (1) of the absolute values, without a sign (2).
+        const LARGER_SIZE: i32 = 0b10_11;
+        // SAFETY: see `splat`.
+        unsafe { _mm256_range_ps::<LARGER_SIZE>(a, b) }
     }
 
     #[inline(always)]

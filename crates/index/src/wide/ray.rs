@@ -54,12 +54,8 @@ impl BoxRay {
     #[inline(always)]
     pub(super) fn new(ray: &Ray, room: &Room) -> Self {
         let (origin, dir) = (Vec3A::from(ray.origin), Vec3A::from(ray.dir));
-        // What is met lies in the room and in the range of the ray; both bound its distance along the main axis.
-        let ahead = if ray.range.max > -ray.range.min { ray.range.max } else { -ray.range.min };
-        let in_range = dir.abs().max_element() * ahead;
-        let in_room = room.reach(origin);
-        let reach = if in_range < in_room { in_range } else { in_room };
-        let along = room.slack + cell_padding(reach, 0.0);
+        let reach = room.reach(origin);
+        let along = room.slack + reach * cell_padding(1.0, 0.0);
         Self {
             origin,
             inverse: inverse_direction(dir),

@@ -7,7 +7,7 @@
 
 use super::ray::BoxRay;
 use super::{LEAF, Wide, WideNode};
-use crate::simd::{END, Lanes, Pending, Pick, StackRoom};
+use crate::simd::{END, LANES, Lanes, Pending, Pick, Row, StackRoom};
 use glam::Vec3A;
 use heliostat_geometry::Ray;
 use heliostat_geometry::error_bound::cell_padding;
@@ -121,9 +121,9 @@ fn walk_boxes<L: Lanes>(
 /// Which planes a ray meets first, by axis, and which last.
 #[derive(Clone, Copy)]
 struct Sides {
-    near: [Pick<6>; 3],
-    far: [Pick<6>; 3],
-    octant: Pick<8>,
+    near: [Pick<Row, 6>; 3],
+    far: [Pick<Row, 6>; 3],
+    octant: Pick<u32, LANES>,
 }
 
 impl Sides {
@@ -236,9 +236,9 @@ impl<L: Lanes> Meet<L> for FineBoxes<L> {
         let (near_x, near_y, near_z) = (near(0), near(1), near(2));
         let (far_x, far_y, far_z) = (far(0), far(1), far(2));
         // What is met in a box is no farther than its farthest corner.
-        let x = lanes.max(lanes.abs(near_x), lanes.abs(far_x));
-        let y = lanes.max(lanes.abs(near_y), lanes.abs(far_y));
-        let z = lanes.max(lanes.abs(near_z), lanes.abs(far_z));
+        let x = lanes.larger_size(near_x, far_x);
+        let y = lanes.larger_size(near_y, far_y);
+        let z = lanes.larger_size(near_z, far_z);
         let distance = lanes.min(lanes.max(lanes.max(x, y), z), self.reach);
         let padding = lanes.add(self.slack, lanes.mul(self.growth, distance));
         let enter = |from: L::F, axis: usize| {
