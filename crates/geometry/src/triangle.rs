@@ -145,57 +145,46 @@ pub fn intersect_turned(ray: &TriangleRay, range: Interval, corners: [Vec3; 3]) 
     if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
         return None;
     }
-    let hit = match hit_inside(ray, corners) {
-        Some((t, barycentric)) if t > 0.0 && !is_flat(corners) => TriangleHit { t: t as f32, barycentric },
+    let hit = match intersect_inside(ray, corners) {
+        Some(hit) if hit.t > 0.0 && !is_flat(corners) => hit,
         Some(_) => return None,
         None => hit_at_rim(ray, corners, &seen, [u, v, w])?,
     };
     range.contains(hit.t).then_some(hit)
 }
 
-/// [`intersect_turned`] for a triangle that is known to be hit.
-///
-/// Known is what follows from the signs of the areas in [`intersect`]: none is 0, and all are alike; and from its distance.
-/// Anything may come of other triangles.
-#[inline(always)]
-pub fn intersect_certainly(ray: &TriangleRay, corners: [Vec3; 3]) -> Option<TriangleHit> {
-    match hit_inside(ray, corners) {
-        Some((t, barycentric)) => Some(TriangleHit { t: t as f32, barycentric }),
-        None => {
-            let seen = ray.project(corners);
-            hit_at_rim(ray, corners, &seen, exact_areas(&seen))
-        }
-    }
-}
-
-/// Twice the areas that the point (0, 0) spans with the edges, from exact products.
+/// Twice the areas that the point (0, 0) spans with the edges opposite to the corners, from exact products.
 #[inline(always)]
 fn exact_areas(&Projected { x, y, .. }: &Projected) -> [f64; 3] {
-    areas([x.x, x.y, x.z].map(f64::from), [y.x, y.y, y.z].map(f64::from))
+    let (x, y) = (x.as_dvec4(), y.as_dvec4());
+    (x.zxyw() * y.yzxw() - y.zxyw() * x.yzxw()).xyz().to_array()
 }
 
-/// Twice the areas that the point (0, 0) spans with the edges opposite to the three corners.
+/// What [`intersect_turned`] says of a triangle with an area that is known to be hit, for less; `None` where rounding might put
+/// the hit outside, and only [`intersect`] can tell.
+///
+/// Anything may come of other triangles.
 #[inline(always)]
-fn areas([ax, bx, cx]: [f64; 3], [ay, by, cy]: [f64; 3]) -> [f64; 3] {
-    [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax]
-}
-
-/// Distance and weights of the corners where the ray meets the triangle, in `f64`; `None` where rounding might put that outside.
-#[inline(always)]
-fn hit_inside(ray: &TriangleRay, corners: [Vec3; 3]) -> Option<(f64, [f32; 3])> {
-    let (origin, dir) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
+pub fn intersect_inside(ray: &TriangleRay, corners: [Vec3; 3]) -> Option<TriangleHit> {
+    let [a, b, c] = corners;
+    let (origin, dir) = (ray.origin, ray.dir.as_dvec3());
+    // As `project` does, with all digits: a lane for each corner, the last lane is 0.
+    let z = Vec4::new(a.z, b.z, c.z, origin.z).as_dvec4() - f64::from(origin.z);
+    let x = Vec4::new(a.x, b.x, c.x, origin.x).as_dvec4() - f64::from(origin.x);
+    let y = Vec4::new(a.y, b.y, c.y, origin.y).as_dvec4() - f64::from(origin.y);
     let inverse = 1.0 / dir.z;
-    let slope = [dir.x * inverse, dir.y * inverse];
-    let [a, b, c] = corners.map(|corner| corner.as_dvec3() - origin);
-    let depth = [a.z, b.z, c.z];
-    let x = [a.x - slope[0] * depth[0], b.x - slope[0] * depth[1], c.x - slope[0] * depth[2]];
-    let y = [a.y - slope[1] * depth[0], b.y - slope[1] * depth[1], c.y - slope[1] * depth[2]];
-    let [u, v, w] = areas(x, y);
-    let is_inside = ((u > 0.0) & (v > 0.0) & (w > 0.0)) | ((u < 0.0) & (v < 0.0) & (w < 0.0));
-    let share = 1.0 / (u + v + w);
-    let t = (u * depth[0] + v * depth[1] + w * depth[2]) * share * inverse;
-    let barycentric = [(u * share) as f32, (v * share) as f32, (w * share) as f32];
-    (is_inside & (t.abs() < f64::from(f32::MAX))).then_some((t, barycentric))
+    let x = x - dir.x * inverse * z;
+    let y = y - dir.y * inverse * z;
+    let areas = x.zxyw() * y.yzxw() - y.zxyw() * x.yzxw();
+    let differ = (areas.x.to_bits() ^ areas.y.to_bits()) | (areas.x.to_bits() ^ areas.z.to_bits());
+    let is_inside = differ >> (u64::BITS - 1) == 0;
+    // The mean of the depths, weighted by the areas.
+    let weights = areas * (1.0 / (areas.x + areas.y + areas.z));
+    let depths = weights * z;
+    let t = ((depths.x + depths.y + depths.z) * inverse) as f32;
+    let barycentric = weights.xyz().as_vec3().to_array();
+    // Without an area the mean is not a number.
+    (is_inside & (t.abs() < f32::INFINITY)).then_some(TriangleHit { t, barycentric })
 }
 
 /// The hit of a ray that meets a triangle where its corners are seen, but so near to an edge, or so near to seeing it edge on,

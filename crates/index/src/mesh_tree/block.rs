@@ -8,7 +8,7 @@ use crate::simd::{LANES, Lanes, Pick, Row};
 use glam::Vec3;
 use heliostat_geometry::Interval;
 use heliostat_geometry::error_bound::gamma;
-use heliostat_geometry::triangle::{TriangleHit, TriangleRay, intersect_certainly, is_flat};
+use heliostat_geometry::triangle::{TriangleHit, TriangleRay, intersect_inside, is_flat};
 
 /// Eight triangles: for each axis a row of the corners a, of b and of c.
 #[derive(Clone, Copy, Debug)]
@@ -72,13 +72,15 @@ impl BlockRay {
         }
     }
 
-    /// The exact hit of a triangle that the lanes are certain of.
+    /// The exact hit of a triangle that the lanes are certain of; `None` where that is better left to [`intersect`].
+    ///
+    /// [`intersect`]: heliostat_geometry::triangle::intersect
     #[inline(always)]
     pub(super) fn certain_hit(&self, block: &Block, lane: usize) -> Option<TriangleHit> {
         let [x, y, z] = [self.axes[0].of(&block.0), self.axes[1].of(&block.0), self.axes[2].of(&block.0)];
         let lane = Pick::<f32, LANES>::new(lane);
-        let corner = |i: usize| Vec3::new(*lane.of(&x[i].0), *lane.of(&y[i].0), *lane.of(&z[i].0));
-        intersect_certainly(&self.turned, [corner(0), corner(1), corner(2)])
+        let corner = |i: usize| Vec3::new(lane.alone(&x[i].0), lane.alone(&y[i].0), lane.alone(&z[i].0));
+        intersect_inside(&self.turned, [corner(0), corner(1), corner(2)])
     }
 
     /// The triangles among those present that may be hit between the distances `min` and `max`.

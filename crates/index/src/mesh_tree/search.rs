@@ -15,6 +15,8 @@ use heliostat_geometry::{Interval, Ray};
 /// The exact test of the triangle in a lane, counted over all blocks.
 ///
 /// It knows the ray as it came: what is prepared for lanes can then stay in registers.
+#[cold]
+#[inline(never)]
 fn exact(tree: &MeshTree, ray: &Ray, slot: usize) -> Option<MeshHit> {
     let corners = tree.blocks[slot / LANES].corners(slot % LANES);
     let hit = intersect(&TriangleRay::new(ray), ray.range, corners)?;
@@ -76,8 +78,10 @@ impl<'t> Nearest<'t> {
     pub(super) fn finish(self) -> Option<MeshHit> {
         // Whatever put it in front of the others was certain.
         let slot = self.best?;
-        let hit = self.block_ray.certain_hit(&self.tree.blocks[slot / LANES], slot % LANES)?;
-        Some(MeshHit { triangle: self.tree.tree.leaf_refs()[slot], hit })
+        match self.block_ray.certain_hit(&self.tree.blocks[slot / LANES], slot % LANES) {
+            Some(hit) => Some(MeshHit { triangle: self.tree.tree.leaf_refs()[slot], hit }),
+            None => exact(self.tree, self.ray, slot),
+        }
     }
 
     /// Whether the triangle in a lane is the nearest one so far, met in another leaf.

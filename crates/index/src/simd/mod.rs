@@ -57,6 +57,17 @@ impl<T, const N: usize> Pick<T, N> {
         // SAFETY: it is the offset of a place less than `N`.
         unsafe { &*items.as_ptr().byte_add(self.offset) }
     }
+
+    /// What is there, read by itself: of reads that lie a row apart the compiler makes masked ones of 512 bits, which take longer
+    /// and slow down what runs beside them.
+    #[inline(always)]
+    pub(crate) fn alone(self, items: &[T; N]) -> T
+    where
+        T: Copy,
+    {
+        // SAFETY: a reference is valid to read from.
+        unsafe { std::ptr::from_ref(self.of(items)).read_volatile() }
+    }
 }
 
 /// Eight lanes of `f32` on one kind of processor.
