@@ -33,8 +33,8 @@ pub(crate) struct Wide {
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct WideNode {
-    /// Lower sides of the children's boxes along x, y, z, then upper sides. A lane without a child holds an empty box.
-    planes: [Row; 6],
+    /// Along x, y, z the lower sides of the children's boxes, then the upper ones. A lane without a child holds an empty box.
+    planes: [[Row; 2]; 3],
     /// Index of a node, or [`LEAF`] and what the leaf is.
     children: [u32; LANES],
     /// For each octant of directions (bit a: downward along axis a), the lanes from the first to be met to the last, three
@@ -46,7 +46,7 @@ impl WideNode {
     pub(crate) const EMPTY: Self = {
         let (none, nothing) = (Row([f32::INFINITY; LANES]), Row([f32::NEG_INFINITY; LANES]));
         Self {
-            planes: [none, none, none, nothing, nothing, nothing],
+            planes: [[none, nothing]; 3],
             children: [LEAF; LANES],
             orders: [0o76543210; LANES],
         }
@@ -55,14 +55,14 @@ impl WideNode {
     /// The box of a child; empty where there is none.
     pub(crate) fn bounds(&self, lane: usize) -> Aabb {
         let corner =
-            |side: usize| Vec3::from_array(std::array::from_fn(|a| self.planes[3 * side + a].0[lane]));
+            |side: usize| Vec3::from_array(std::array::from_fn(|a| self.planes[a][side].0[lane]));
         Aabb { min: corner(0), max: corner(1) }
     }
 
     fn set(&mut self, lane: usize, bounds: Aabb, child: u32) {
         for axis in 0..3 {
-            self.planes[axis].0[lane] = bounds.min[axis];
-            self.planes[3 + axis].0[lane] = bounds.max[axis];
+            self.planes[axis][0].0[lane] = bounds.min[axis];
+            self.planes[axis][1].0[lane] = bounds.max[axis];
         }
         self.children[lane] = child;
     }

@@ -11,8 +11,8 @@ pub(crate) struct Room {
     high: Vec3A,
     /// How far beside its place something may be met even where a ray starts.
     pub(super) slack: f32,
-    /// Bound of the rounding of coordinates in here.
-    rounding: Vec3A,
+    /// The slack, and the rounding of coordinates in here.
+    padding: Vec3A,
     /// A size that few boxes of leaves are below.
     detail: f32,
 }
@@ -25,15 +25,9 @@ impl Room {
             low: bounds.min.into(),
             high: bounds.max.into(),
             slack,
-            rounding: slab_padding(extent.into()),
+            padding: Vec3A::splat(slack) + slab_padding(extent.into()),
             detail,
         }
-    }
-
-    /// The largest distance along an axis between a point and anything in the room.
-    #[inline(always)]
-    pub(crate) fn reach(&self, from: Vec3A) -> f32 {
-        (self.high - from).max(from - self.low).max_element()
     }
 }
 
@@ -42,44 +36,41 @@ impl Room {
 pub(super) struct BoxRay {
     pub(super) origin: Vec3A,
     pub(super) inverse: Vec3A,
-    /// How far beside a box a ray may run, along each axis, and still meet what is in it.
-    padding: Vec3A,
+    /// The distance to a plane at `b` is `b * inverse - offset`: the offsets for the sides where the ray enters and where it
+    /// leaves lie as far apart as a ray may run beside a box, along each axis, and still meet what is in it.
+    pub(super) near_offset: Vec3A,
+    pub(super) far_offset: Vec3A,
     /// The largest distance along an axis up to which something may be met.
     pub(super) reach: f32,
     pub(super) range: Interval,
+    /// Whether the offsets would blur the boxes of the room: where it spans very different sizes, lies far from the origin of
+    /// coordinates, or is larger than products of numbers can be.
+    pub(super) blurs: bool,
 }
 
 impl BoxRay {
     /// The ray in a room.
     #[inline(always)]
     pub(super) fn new(ray: &Ray, room: &Room) -> Self {
-        let (origin, dir) = (Vec3A::from(ray.origin), Vec3A::from(ray.dir));
-        let reach = room.reach(origin);
-        let along = room.slack + reach * cell_padding(1.0, 0.0);
+        let (origin, inverse) = (Vec3A::from(ray.origin), inverse_direction(ray.dir.into()));
+        // The offsets without the part that depends on the reach, which takes longest to find.
+        let padding = room.padding + slab_padding(origin.abs());
+        let (middle, size) = (origin * inverse, inverse.abs());
+        let (near, far) = (middle + padding * size, middle - padding * size);
+        let reach = (room.high - origin).max(origin - room.low).max_element();
+        let along = Vec3A::splat(reach * cell_padding(1.0, 0.0));
+        let (near_offset, far_offset) = (near + along * size, far - along * size);
+        let is_sharp = (padding + along).cmple(Vec3A::splat(room.detail));
+        let is_sharp = is_sharp & near_offset.is_finite_mask() & far_offset.is_finite_mask();
         Self {
             origin,
-            inverse: inverse_direction(dir),
-            padding: Vec3A::splat(along) + room.rounding + slab_padding(origin.abs()),
+            inverse,
+            near_offset,
+            far_offset,
             reach,
             range: ray.range,
+            blurs: !is_sharp.all(),
         }
-    }
-
-    /// The distance to a plane at `b` is `b * inverse - offset`: the offsets for the sides where the ray enters and where it
-    /// leaves lie as far apart as the padding.
-    #[inline(always)]
-    pub(super) fn offsets(&self) -> (Vec3A, Vec3A) {
-        let padding = self.padding.copysign(self.inverse);
-        ((self.origin + padding) * self.inverse, (self.origin - padding) * self.inverse)
-    }
-
-    /// Whether offsets and one padding for all would blur the boxes of the room: where it spans very different sizes, lies far
-    /// from the origin of coordinates, or is larger than products of numbers can be.
-    #[inline(always)]
-    pub(super) fn blurs(&self, room: &Room) -> bool {
-        let (near, far) = self.offsets();
-        let is_sharp = self.padding.max_element() <= room.detail;
-        !(is_sharp & near.is_finite() & far.is_finite())
     }
 
     /// Bit a: the ray runs downward along axis a.

@@ -74,7 +74,7 @@ pub(crate) fn walk<L: Lanes>(
     }
     let box_ray = BoxRay::new(ray, &wide.room);
     let sides = Sides::new(&box_ray);
-    if box_ray.blurs(&wide.room) {
+    if box_ray.blurs {
         let boxes = FineBoxes::new(lanes, sides, &box_ray, wide.room.slack);
         walk_boxes(lanes, &wide.nodes, &boxes, limit, search, counter);
     } else {
@@ -118,11 +118,11 @@ fn walk_boxes<L: Lanes>(
     }
 }
 
-/// Which planes a ray meets first, by axis, and which last.
+/// Which sides a ray meets first, by axis, and which last.
 #[derive(Clone, Copy)]
 struct Sides {
-    near: [Pick<Row, 6>; 3],
-    far: [Pick<Row, 6>; 3],
+    near: [Pick<Row, 2>; 3],
+    far: [Pick<Row, 2>; 3],
     octant: Pick<u32, LANES>,
 }
 
@@ -130,10 +130,9 @@ impl Sides {
     #[inline(always)]
     fn new(ray: &BoxRay) -> Self {
         let octant = ray.octant();
-        let is_downward = |axis: usize| octant >> axis & 1;
         Self {
-            near: [0, 1, 2].map(|axis| Pick::new(axis + 3 * is_downward(axis))),
-            far: [0, 1, 2].map(|axis| Pick::new(axis + 3 * (1 - is_downward(axis)))),
+            near: [Pick::new(octant), Pick::new(octant >> 1), Pick::new(octant >> 2)],
+            far: [Pick::new(!octant), Pick::new(!octant >> 1), Pick::new(!octant >> 2)],
             octant: Pick::new(octant),
         }
     }
@@ -159,12 +158,11 @@ struct Boxes<L: Lanes> {
 impl<L: Lanes> Boxes<L> {
     #[inline(always)]
     fn new(lanes: L, sides: Sides, ray: &BoxRay) -> Self {
-        let (near_offset, far_offset) = ray.offsets();
         Self {
             sides,
             inverse: splat(lanes, ray.inverse),
-            near_offset: splat(lanes, near_offset),
-            far_offset: splat(lanes, far_offset),
+            near_offset: splat(lanes, ray.near_offset),
+            far_offset: splat(lanes, ray.far_offset),
             start: lanes.splat(ray.range.min),
         }
     }
@@ -179,11 +177,11 @@ impl<L: Lanes> Meet<L> for Boxes<L> {
     #[inline(always)]
     fn meet(&self, lanes: L, node: &WideNode, limit: f32) -> (L::F, L::F) {
         let near = |axis: usize| {
-            let plane = lanes.load(self.sides.near[axis].of(&node.planes));
+            let plane = lanes.load(self.sides.near[axis].of(&node.planes[axis]));
             lanes.mul_sub(plane, self.inverse[axis], self.near_offset[axis])
         };
         let far = |axis: usize| {
-            let plane = lanes.load(self.sides.far[axis].of(&node.planes));
+            let plane = lanes.load(self.sides.far[axis].of(&node.planes[axis]));
             lanes.mul_sub(plane, self.inverse[axis], self.far_offset[axis])
         };
         let enter = lanes.later(lanes.later(near(0), near(1)), lanes.later(near(2), self.start));
@@ -230,9 +228,9 @@ impl<L: Lanes> Meet<L> for FineBoxes<L> {
     #[inline(always)]
     fn meet(&self, lanes: L, node: &WideNode, limit: f32) -> (L::F, L::F) {
         let near =
-            |axis: usize| lanes.sub(lanes.load(self.sides.near[axis].of(&node.planes)), self.origin[axis]);
+            |axis: usize| lanes.sub(lanes.load(self.sides.near[axis].of(&node.planes[axis])), self.origin[axis]);
         let far =
-            |axis: usize| lanes.sub(lanes.load(self.sides.far[axis].of(&node.planes)), self.origin[axis]);
+            |axis: usize| lanes.sub(lanes.load(self.sides.far[axis].of(&node.planes[axis])), self.origin[axis]);
         let (near_x, near_y, near_z) = (near(0), near(1), near(2));
         let (far_x, far_y, far_z) = (far(0), far(1), far(2));
         // What is met in a box is no farther than its farthest corner.
