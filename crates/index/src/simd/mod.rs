@@ -119,6 +119,12 @@ pub(crate) trait Lanes: Copy {
         children: &[u32; LANES],
         order: u32,
     ) -> u32;
+
+    /// Forgets all children on the stack that are entered beyond `limit`.
+    #[inline(always)]
+    fn forget_beyond(self, stack: &mut Self::Stack<'_>, limit: f32) {
+        stack.forget_beyond(limit);
+    }
 }
 
 /// What a [`Backend`] is to run: a function that is generic over the lanes.

@@ -109,6 +109,23 @@ impl<const DOWN: bool> Stack<'_, DOWN> {
     }
 }
 
+impl Stack<'_, true> {
+    /// How many children there are, and where the top one's row starts.
+    #[inline(always)]
+    pub(super) fn rows(&self) -> (usize, *mut u32, *mut f32) {
+        // SAFETY: the top is a place of the stack.
+        unsafe { (Self::BOTTOM - self.top, self.children.add(self.top), self.nears.add(self.top)) }
+    }
+
+    /// Leaves the lowest `count` children; answers where their row starts.
+    #[inline(always)]
+    pub(super) fn shrink(&mut self, count: usize) -> (*mut u32, *mut f32) {
+        self.top = Self::BOTTOM - count;
+        // SAFETY: the top is a place of the stack.
+        unsafe { (self.children.add(self.top), self.nears.add(self.top)) }
+    }
+}
+
 impl<'r, const DOWN: bool> Pending<'r> for Stack<'r, DOWN> {
     #[inline(always)]
     fn new(room: &'r mut StackRoom) -> Self {

@@ -310,4 +310,25 @@ impl Lanes for Avx512 {
             _mm_cvtsi128_si32(_mm256_castsi256_si128(children)) as u32
         }
     }
+
+    #[inline(always)]
+    fn forget_beyond(self, stack: &mut Self::Stack<'_>, limit: f32) {
+        let (count, children, nears) = stack.rows();
+        if count > LANES {
+            stack.forget_beyond(limit);
+            return;
+        }
+        // SAFETY: see `splat`; only places that are written are read.
+        unsafe {
+            let there = _bzhi_u32(0xFF, count as u32) as u8;
+            let children = _mm256_maskz_loadu_epi32(there, children.cast());
+            let nears = _mm256_maskz_loadu_ps(there, nears);
+            let kept = _mm256_mask_cmp_ps_mask::<_CMP_LE_OQ>(there, nears, _mm256_set1_ps(limit));
+            let count = kept.count_ones();
+            let used = _bzhi_u32(0xFF, count) as u8;
+            let (to_children, to_nears) = stack.shrink(count as usize);
+            _mm256_mask_storeu_epi32(to_children.cast(), used, _mm256_maskz_compress_epi32(kept, children));
+            _mm256_mask_storeu_ps(to_nears, used, _mm256_maskz_compress_ps(kept, nears));
+        }
+    }
 }

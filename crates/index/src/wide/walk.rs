@@ -112,7 +112,7 @@ fn walk_boxes<L: Lanes>(
         }
         if end < limit {
             limit = end;
-            stack.forget_beyond(limit);
+            lanes.forget_beyond(&mut stack, limit);
         }
         child = stack.pop();
     }
