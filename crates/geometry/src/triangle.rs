@@ -12,7 +12,7 @@
 
 use crate::error_bound::sheared_corner;
 use crate::ray::{Interval, Ray};
-use glam::{BVec3A, DVec3, Vec3, Vec3A, Vec3Swizzles, Vec4, Vec4Swizzles};
+use glam::{DVec3, Vec3, Vec3A, Vec3Swizzles, Vec4, Vec4Swizzles};
 
 /// A ray with the shear that turns its direction into the third axis, worked out once per ray.
 ///
@@ -29,39 +29,35 @@ use glam::{BVec3A, DVec3, Vec3, Vec3A, Vec3Swizzles, Vec4, Vec4Swizzles};
 pub struct TriangleRay {
     /// The axis (0, 1, 2) along which the direction is longest. All below are turned so that it is the last one.
     along: usize,
-    origin: Vec3,
-    dir: Vec3,
-    /// Slopes of the direction along the first two axes over the last one.
-    slope: [f32; 2],
-}
-
-/// The coordinates in cyclic order, axis `along` last.
-///
-/// Both turns are made and one is selected: which axis it is, is hard to foresee, and a look into memory takes long.
-#[inline(always)]
-fn turned(along: usize, v: Vec3) -> Vec3 {
-    let v = Vec3A::from(v);
-    let (is_x, is_y) = (BVec3A::splat(along == 0), BVec3A::splat(along == 1));
-    Vec3A::select(is_x, v.yzx(), Vec3A::select(is_y, v.zxy(), v)).into()
+    origin: Vec3A,
+    dir: Vec3A,
+    /// Slopes of the direction along the first two axes over the last one, and one over the direction along that.
+    slope: Vec3A,
 }
 
 impl TriangleRay {
     /// Prepares `ray`; worth it once per ray and space, not per triangle.
     #[inline(always)]
     pub fn new(ray: &Ray) -> Self {
-        let Vec3 { x, y, z } = ray.dir.abs();
-        let along = if (x > y) & (x > z) {
-            0
-        } else if y > z {
-            1
-        } else {
-            2
-        };
-        let dir = turned(along, ray.dir);
-        Self { along, origin: turned(along, ray.origin), dir, slope: [dir.x / dir.z, dir.y / dir.z] }
+        let along = Self::main_axis(ray.dir.into());
+        Self::from_turned(along, turned(along, ray.origin.into()), turned(along, ray.dir.into()))
     }
 
-    /// The axis (0, 1, 2) along which the direction is longest.
+    /// A ray whose coordinates were brought into cyclic order, its [main axis](Self::main_axis) last.
+    #[inline(always)]
+    pub fn from_turned(along: usize, origin: Vec3A, dir: Vec3A) -> Self {
+        Self { along, origin, dir, slope: Vec3A::new(dir.x, dir.y, 1.0) / dir.z }
+    }
+
+    /// The axis (0, 1, 2) along which a direction is longest; of several the first.
+    #[inline(always)]
+    pub fn main_axis(dir: Vec3A) -> usize {
+        let size = dir.abs();
+        let is_longest = size.cmpge(size.yzx()) & size.cmpge(size.zxy());
+        (is_longest.bitmask() | 0b100).trailing_zeros() as usize
+    }
+
+    /// The axis along which the direction is longest.
     #[inline(always)]
     pub fn along(&self) -> usize {
         self.along
@@ -69,19 +65,13 @@ impl TriangleRay {
 
     /// The origin in cyclic order, the axis along which the direction is longest last.
     #[inline(always)]
-    pub fn origin(&self) -> Vec3 {
+    pub fn origin(&self) -> Vec3A {
         self.origin
     }
 
-    /// The direction in the same order.
+    /// Slopes of the direction along the first two axes of that order over the last one, and one over the direction along that.
     #[inline(always)]
-    pub fn dir(&self) -> Vec3 {
-        self.dir
-    }
-
-    /// Slopes of the direction along the first two of these axes over the last one.
-    #[inline(always)]
-    pub fn slope(&self) -> [f32; 2] {
+    pub fn slope(&self) -> Vec3A {
         self.slope
     }
 
@@ -95,7 +85,7 @@ impl TriangleRay {
         let x = Vec4::new(a.x, b.x, c.x, origin.x) - origin.x;
         let y = Vec4::new(a.y, b.y, c.y, origin.y) - origin.y;
         let reach = x.abs().max(y.abs()).max(z.abs()).max_element();
-        Projected { x: x - self.slope[0] * z, y: y - self.slope[1] * z, reach }
+        Projected { x: x - self.slope.x * z, y: y - self.slope.y * z, reach }
     }
 }
 
@@ -105,6 +95,16 @@ struct Projected {
     y: Vec4,
     /// The largest coordinate of a corner, seen from the origin of the ray.
     reach: f32,
+}
+
+/// The coordinates in cyclic order, axis `along` last.
+#[inline(always)]
+fn turned(along: usize, v: Vec3A) -> Vec3A {
+    match along {
+        0 => v.yzx(),
+        1 => v.zxy(),
+        _ => v,
+    }
 }
 
 /// Where a ray meets a triangle.
@@ -122,8 +122,7 @@ pub struct TriangleHit {
 /// finite and rays without direction give `None`.
 #[inline]
 pub fn intersect(ray: &TriangleRay, range: Interval, corners: [Vec3; 3]) -> Option<TriangleHit> {
-    let [a, b, c] = corners;
-    intersect_turned(ray, range, [turned(ray.along, a), turned(ray.along, b), turned(ray.along, c)])
+    intersect_turned(ray, range, corners.map(|corner| turned(ray.along, corner.into()).into()))
 }
 
 /// [`intersect`] with the coordinates of the corners in the order of [`TriangleRay::origin`].

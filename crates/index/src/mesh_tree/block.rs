@@ -6,9 +6,9 @@
 
 use crate::simd::{LANES, Lanes, Pick, Row};
 use glam::Vec3;
-use heliostat_geometry::Interval;
 use heliostat_geometry::error_bound::gamma;
 use heliostat_geometry::triangle::{TriangleHit, TriangleRay, intersect_inside, is_flat};
+use heliostat_geometry::{Interval, Ray};
 
 /// Eight triangles: for each axis a row of the corners a, of b and of c.
 #[derive(Clone, Copy, Debug)]
@@ -44,11 +44,17 @@ impl Block {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BlockRay {
     /// The axes in cyclic order, the one along which the ray runs fastest last.
-    axes: [Pick<[Row; 3], 3>; 3],
+    axes: [Axis; 3],
     turned: TriangleRay,
-    /// One over the direction along the last axis.
-    inverse: f32,
 }
+
+type Axis = Pick<[Row; 3], 3>;
+
+/// The axes in cyclic order, for each that may be the last.
+static AXES: [[Axis; 3]; 3] = {
+    let [x, y, z] = [Axis::new(0), Axis::new(1), Axis::new(2)];
+    [[y, z, x], [z, x, y], [x, y, z]]
+};
 
 /// Triangles of a block that a ray may meet.
 pub(super) struct Candidates<F> {
@@ -63,12 +69,12 @@ pub(super) struct Candidates<F> {
 
 impl BlockRay {
     #[inline(always)]
-    pub(super) fn new(ray: &TriangleRay) -> Self {
-        let along = ray.along();
+    pub(super) fn new(lanes: impl Lanes, ray: &Ray) -> Self {
+        let along = TriangleRay::main_axis(ray.dir.into());
+        let turned = |v: Vec3| lanes.turned(along, v.into());
         Self {
-            axes: [Pick::new(along + 1), Pick::new(along + 2), Pick::new(along)],
-            turned: *ray,
-            inverse: 1.0 / ray.dir().z,
+            axes: AXES[along % 3],
+            turned: TriangleRay::from_turned(along, turned(ray.origin), turned(ray.dir)),
         }
     }
 
@@ -100,12 +106,12 @@ impl BlockRay {
         let b_depth = lanes.sub(lanes.load(b), origin);
         let c_depth = lanes.sub(lanes.load(c), origin);
         let [a, b, c] = self.axes[0].of(&block.0);
-        let (origin, slope) = (lanes.splat(self.turned.origin().x), lanes.splat(self.turned.slope()[0]));
+        let (origin, slope) = (lanes.splat(self.turned.origin().x), lanes.splat(self.turned.slope().x));
         let ax = lanes.sub(lanes.sub(lanes.load(a), origin), lanes.mul(slope, a_depth));
         let bx = lanes.sub(lanes.sub(lanes.load(b), origin), lanes.mul(slope, b_depth));
         let cx = lanes.sub(lanes.sub(lanes.load(c), origin), lanes.mul(slope, c_depth));
         let [a, b, c] = self.axes[1].of(&block.0);
-        let (origin, slope) = (lanes.splat(self.turned.origin().y), lanes.splat(self.turned.slope()[1]));
+        let (origin, slope) = (lanes.splat(self.turned.origin().y), lanes.splat(self.turned.slope().y));
         let ay = lanes.sub(lanes.sub(lanes.load(a), origin), lanes.mul(slope, a_depth));
         let by = lanes.sub(lanes.sub(lanes.load(b), origin), lanes.mul(slope, b_depth));
         let cy = lanes.sub(lanes.sub(lanes.load(c), origin), lanes.mul(slope, c_depth));
@@ -121,7 +127,7 @@ impl BlockRay {
         // The mean of the depths, weighted by the areas.
         let weighted = lanes.mul_add(w, c_depth, lanes.mul_add(v, b_depth, lanes.mul(u, a_depth)));
         let share = lanes.div(lanes.splat(1.0), lanes.add(lanes.add(u, v), w));
-        let distance = lanes.mul(lanes.mul(weighted, share), lanes.splat(self.inverse));
+        let distance = lanes.mul(lanes.mul(weighted, share), lanes.splat(self.turned.slope().z));
         let farthest = lanes.max(lanes.max(a_depth, b_depth), c_depth);
         let nearest = lanes.min(lanes.min(a_depth, b_depth), c_depth);
         let x = lanes.larger_size(lanes.larger_size(ax, bx), cx);
@@ -153,6 +159,6 @@ impl BlockRay {
         let shift = lanes.mul(reach, lanes.splat(gamma(6)));
         let turn = lanes.mul(lanes.add(size, shift), lanes.larger_size(span, span));
         let part = lanes.mul_add(turn, lanes.splat(36.0), lanes.splat(4.0));
-        lanes.mul(lanes.mul(shift, lanes.splat(self.inverse.abs())), part)
+        lanes.mul(lanes.mul(shift, lanes.splat(self.turned.slope().z.abs())), part)
     }
 }

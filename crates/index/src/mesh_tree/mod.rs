@@ -141,7 +141,7 @@ impl<C: Counter> Task for Closest<'_, C> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> Option<MeshHit> {
         let Self { tree, ray, counter } = self;
-        let mut search = Nearest::new(tree, ray);
+        let mut search = Nearest::new(lanes, tree, ray);
         walk(lanes, tree.tree.wide(), ray, ray.range.max, &mut search, counter);
         search.finish()
     }
@@ -159,7 +159,7 @@ impl Task for Occluded<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) -> bool {
         let Self { tree, ray } = self;
-        let mut search = Any::new(tree, ray);
+        let mut search = Any::new(lanes, tree, ray);
         walk(lanes, tree.tree.wide(), ray, ray.range.max, &mut search, &mut Uncounted);
         search.found
     }
@@ -178,7 +178,7 @@ impl<V: FnMut(MeshHit)> Task for Visit<'_, V> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         let Self { tree, ray, visit } = self;
-        let mut search = Each::new(tree, ray, visit);
+        let mut search = Each::new(lanes, tree, ray, visit);
         walk(lanes, tree.tree.wide(), ray, ray.range.max, &mut search, &mut Uncounted);
     }
 }

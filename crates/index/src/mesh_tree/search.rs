@@ -68,9 +68,9 @@ pub(super) struct Nearest<'t> {
 
 impl<'t> Nearest<'t> {
     #[inline(always)]
-    pub(super) fn new(tree: &'t MeshTree, ray: &'t Ray) -> Self {
+    pub(super) fn new(lanes: impl Lanes, tree: &'t MeshTree, ray: &'t Ray) -> Self {
         let end = ray.range.max;
-        Self { tree, ray, block_ray: BlockRay::new(&TriangleRay::new(ray)), best: None, low: end, high: end }
+        Self { tree, ray, block_ray: BlockRay::new(lanes, ray), best: None, low: end, high: end }
     }
 
     /// The nearest hit.
@@ -131,8 +131,8 @@ pub(super) struct Any<'t> {
 
 impl<'t> Any<'t> {
     #[inline(always)]
-    pub(super) fn new(tree: &'t MeshTree, ray: &'t Ray) -> Self {
-        Self { tree, ray, block_ray: BlockRay::new(&TriangleRay::new(ray)), found: false }
+    pub(super) fn new(lanes: impl Lanes, tree: &'t MeshTree, ray: &'t Ray) -> Self {
+        Self { tree, ray, block_ray: BlockRay::new(lanes, ray), found: false }
     }
 }
 
@@ -169,8 +169,8 @@ pub(super) struct Each<'t, V> {
 
 impl<'t, V: FnMut(MeshHit)> Each<'t, V> {
     #[inline(always)]
-    pub(super) fn new(tree: &'t MeshTree, ray: &'t Ray, visit: V) -> Self {
-        Self { tree, ray, block_ray: BlockRay::new(&TriangleRay::new(ray)), visit }
+    pub(super) fn new(lanes: impl Lanes, tree: &'t MeshTree, ray: &'t Ray, visit: V) -> Self {
+        Self { tree, ray, block_ray: BlockRay::new(lanes, ray), visit }
     }
 }
 

@@ -17,6 +17,7 @@ mod x86;
 
 pub(crate) use stack::{END, Pending, Stack, StackRoom};
 
+use glam::Vec3A;
 use std::marker::PhantomData;
 
 /// How many lanes there are.
@@ -47,7 +48,7 @@ impl<T, const N: usize> Copy for Pick<T, N> {}
 impl<T, const N: usize> Pick<T, N> {
     /// The place `i`, taken modulo the size of the array.
     #[inline(always)]
-    pub(crate) fn new(i: usize) -> Self {
+    pub(crate) const fn new(i: usize) -> Self {
         Self { offset: i % N * size_of::<T>(), of: PhantomData }
     }
 
@@ -104,6 +105,9 @@ pub(crate) trait Lanes: Copy {
     fn any_zero(self, a: Self::F, b: Self::F, c: Self::F) -> u32;
     /// A bit for each lane that has one number below 0 and another above; either where one is NaN.
     fn mixed_signs(self, a: Self::F, b: Self::F, c: Self::F) -> u32;
+
+    /// The coordinates in cyclic order, axis `along` of 0, 1, 2 last.
+    fn turned(self, along: usize, v: Vec3A) -> Vec3A;
 
     /// The stack of a walk.
     type Stack<'r>: Pending<'r>;

@@ -1,6 +1,7 @@
 //! The lanes on plain arrays.
 
 use super::{LANES, Lanes, Pending, Row, Stack};
+use glam::{Vec3A, Vec3Swizzles};
 
 /// Eight lanes on any processor.
 #[derive(Clone, Copy, Debug)]
@@ -109,6 +110,15 @@ impl Lanes for Portable {
             let positive = (a[i] > 0.0) | (b[i] > 0.0) | (c[i] > 0.0);
             negative & positive
         })
+    }
+
+    #[inline(always)]
+    fn turned(self, along: usize, v: Vec3A) -> Vec3A {
+        match along {
+            0 => v.yzx(),
+            1 => v.zxy(),
+            _ => v,
+        }
     }
 
     #[inline(always)]

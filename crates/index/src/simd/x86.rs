@@ -2,6 +2,7 @@
 
 use super::portable::Portable;
 use super::{LANES, Lanes, Pending, Row, Stack, Task};
+use glam::Vec3A;
 use std::arch::x86_64::*;
 
 pub(super) fn has_avx2() -> bool {
@@ -64,6 +65,13 @@ static PACKED: [u64; 256] = {
     }
     table
 };
+
+/// For each axis, the lanes in cyclic order, this axis last.
+static TURNS: [Turn; 3] = [Turn([1, 2, 0, 3]), Turn([2, 0, 1, 3]), Turn([0, 1, 2, 3])];
+
+/// Numbers of lanes, aligned for one load.
+#[repr(C, align(16))]
+struct Turn([i32; 4]);
 
 /// The methods that both kinds share.
 macro_rules! on_256_bits {
@@ -136,6 +144,12 @@ macro_rules! on_256_bits {
         fn max(self, a: __m256, b: __m256) -> __m256 {
             // SAFETY: see `splat`.
             unsafe { _mm256_max_ps(a, b) }
+        }
+
+        #[inline(always)]
+        fn turned(self, along: usize, v: Vec3A) -> Vec3A {
+            // SAFETY: see `splat`.
+            unsafe { _mm_permutevar_ps(v.into(), _mm_load_si128(TURNS[along % 3].0.as_ptr().cast())).into() }
         }
 
         #[inline(always)]

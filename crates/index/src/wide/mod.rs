@@ -45,17 +45,12 @@ pub(crate) struct WideNode {
 impl WideNode {
     pub(crate) const EMPTY: Self = {
         let (none, nothing) = (Row([f32::INFINITY; LANES]), Row([f32::NEG_INFINITY; LANES]));
-        Self {
-            planes: [[none, nothing]; 3],
-            children: [LEAF; LANES],
-            orders: [0o76543210; LANES],
-        }
+        Self { planes: [[none, nothing]; 3], children: [LEAF; LANES], orders: [0o76543210; LANES] }
     };
 
     /// The box of a child; empty where there is none.
     pub(crate) fn bounds(&self, lane: usize) -> Aabb {
-        let corner =
-            |side: usize| Vec3::from_array(std::array::from_fn(|a| self.planes[a][side].0[lane]));
+        let corner = |side: usize| Vec3::from_array(std::array::from_fn(|a| self.planes[a][side].0[lane]));
         Aabb { min: corner(0), max: corner(1) }
     }
 

@@ -62,15 +62,7 @@ impl BoxRay {
         let (near_offset, far_offset) = (near + along * size, far - along * size);
         let is_sharp = (padding + along).cmple(Vec3A::splat(room.detail));
         let is_sharp = is_sharp & near_offset.is_finite_mask() & far_offset.is_finite_mask();
-        Self {
-            origin,
-            inverse,
-            near_offset,
-            far_offset,
-            reach,
-            range: ray.range,
-            blurs: !is_sharp.all(),
-        }
+        Self { origin, inverse, near_offset, far_offset, reach, range: ray.range, blurs: !is_sharp.all() }
     }
 
     /// Bit a: the ray runs downward along axis a.

@@ -227,10 +227,12 @@ impl<L: Lanes> Meet<L> for FineBoxes<L> {
 
     #[inline(always)]
     fn meet(&self, lanes: L, node: &WideNode, limit: f32) -> (L::F, L::F) {
-        let near =
-            |axis: usize| lanes.sub(lanes.load(self.sides.near[axis].of(&node.planes[axis])), self.origin[axis]);
-        let far =
-            |axis: usize| lanes.sub(lanes.load(self.sides.far[axis].of(&node.planes[axis])), self.origin[axis]);
+        let near = |axis: usize| {
+            lanes.sub(lanes.load(self.sides.near[axis].of(&node.planes[axis])), self.origin[axis])
+        };
+        let far = |axis: usize| {
+            lanes.sub(lanes.load(self.sides.far[axis].of(&node.planes[axis])), self.origin[axis])
+        };
         let (near_x, near_y, near_z) = (near(0), near(1), near(2));
         let (far_x, far_y, far_z) = (far(0), far(1), far(2));
         // What is met in a box is no farther than its farthest corner.
