@@ -8,19 +8,22 @@ use heliostat_index::{Backend, BuildParams, MeshTree};
 pub(crate) struct Ours {
     name: String,
     pub(crate) tree: MeshTree,
+    /// Whether rays are handed over all at once.
+    batch: bool,
 }
 
 impl Ours {
     /// Builds the tree; `backend` in place of the best one, where given.
     pub(crate) fn build(mesh: &TriMesh, preset: &str, backend: Option<Backend>) -> Result<Self, String> {
+        let (preset, batch) = preset.strip_suffix("-batch").map_or((preset, false), |preset| (preset, true));
         let params: BuildParams = preset.parse().map_err(|e| format!("{e}"))?;
         let mut tree = MeshTree::build(mesh, &params).map_err(|e| e.to_string())?;
-        let mut name = format!("heliostat {preset}");
+        let mut name = format!("heliostat {preset}{}", if batch { ", batch" } else { "" });
         if let Some(backend) = backend {
             tree = tree.with_backend(backend);
             name = format!("{name}, {}", backend.name());
         }
-        Ok(Self { name, tree })
+        Ok(Self { name, tree, batch })
     }
 }
 
@@ -35,6 +38,16 @@ impl Contestant for Ours {
 
     fn trace(&self, query: Query, rays: &[Ray], distances: &mut [f32]) {
         match query {
+            Query::Closest if self.batch => {
+                for (found, distance) in self.tree.closest_hits(rays).iter().zip(distances) {
+                    *distance = found.map_or(f32::INFINITY, |found| found.hit.t);
+                }
+            }
+            Query::Any if self.batch => {
+                for (found, distance) in self.tree.any_hits(rays).iter().zip(distances) {
+                    *distance = if *found { 0.0 } else { f32::INFINITY };
+                }
+            }
             Query::Closest => {
                 for (ray, distance) in rays.iter().zip(distances) {
                     *distance = self.tree.closest_hit(ray).map_or(f32::INFINITY, |found| found.hit.t);

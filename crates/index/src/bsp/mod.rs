@@ -202,6 +202,8 @@ impl<F: FnMut(&[u32]) -> f32, C: Counter> Task for Visit<'_, F, C> {
 }
 
 impl<F: FnMut(&[u32]) -> f32> Search for Leaves<'_, F> {
+    const SHORTENS: bool = true;
+
     #[inline(always)]
     fn leaf<L: Lanes>(&mut self, _lanes: L, leaf: u32, counter: &mut impl Counter) -> f32 {
         let refs = &self.tree.leaf_refs[self.tree.range_of(leaf)];

@@ -44,7 +44,9 @@ impl Block {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct BlockRay {
     /// The axes in cyclic order, the one along which the ray runs fastest last.
-    axes: [Axis; 3],
+    x: Axis,
+    y: Axis,
+    z: Axis,
     turned: TriangleRay,
 }
 
@@ -71,11 +73,10 @@ impl BlockRay {
     #[inline(always)]
     pub(super) fn new(lanes: impl Lanes, ray: &Ray) -> Self {
         let along = TriangleRay::main_axis(ray.dir.into());
-        let turned = |v: Vec3| lanes.turned(along, v.into());
-        Self {
-            axes: AXES[along % 3],
-            turned: TriangleRay::from_turned(along, turned(ray.origin), turned(ray.dir)),
-        }
+        let origin = lanes.turned(along, ray.origin.into());
+        let dir = lanes.turned(along, ray.dir.into());
+        let [x, y, z] = AXES[along % 3];
+        Self { x, y, z, turned: TriangleRay::from_turned(along, origin, dir) }
     }
 
     /// The exact hit of a triangle that the lanes are certain of; `None` where that is better left to [`intersect`].
@@ -83,7 +84,7 @@ impl BlockRay {
     /// [`intersect`]: heliostat_geometry::triangle::intersect
     #[inline(always)]
     pub(super) fn certain_hit(&self, block: &Block, lane: usize) -> Option<TriangleHit> {
-        let [x, y, z] = [self.axes[0].of(&block.0), self.axes[1].of(&block.0), self.axes[2].of(&block.0)];
+        let [x, y, z] = [self.x.of(&block.0), self.y.of(&block.0), self.z.of(&block.0)];
         let lane = Pick::<f32, LANES>::new(lane);
         let corner = |i: usize| Vec3::new(lane.alone(&x[i].0), lane.alone(&y[i].0), lane.alone(&z[i].0));
         intersect_inside(&self.turned, [corner(0), corner(1), corner(2)])
@@ -100,17 +101,17 @@ impl BlockRay {
     ) -> Option<Candidates<L::F>> {
         // Look down the ray. (No `map` of arrays here: the compiler does not make it part of the function, and out of line it
         // knows nothing of the lanes.)
-        let [a, b, c] = self.axes[2].of(&block.0);
+        let [a, b, c] = self.z.of(&block.0);
         let origin = lanes.splat(self.turned.origin().z);
         let a_depth = lanes.sub(lanes.load(a), origin);
         let b_depth = lanes.sub(lanes.load(b), origin);
         let c_depth = lanes.sub(lanes.load(c), origin);
-        let [a, b, c] = self.axes[0].of(&block.0);
+        let [a, b, c] = self.x.of(&block.0);
         let (origin, slope) = (lanes.splat(self.turned.origin().x), lanes.splat(self.turned.slope().x));
         let ax = lanes.sub(lanes.sub(lanes.load(a), origin), lanes.mul(slope, a_depth));
         let bx = lanes.sub(lanes.sub(lanes.load(b), origin), lanes.mul(slope, b_depth));
         let cx = lanes.sub(lanes.sub(lanes.load(c), origin), lanes.mul(slope, c_depth));
-        let [a, b, c] = self.axes[1].of(&block.0);
+        let [a, b, c] = self.y.of(&block.0);
         let (origin, slope) = (lanes.splat(self.turned.origin().y), lanes.splat(self.turned.slope().y));
         let ay = lanes.sub(lanes.sub(lanes.load(a), origin), lanes.mul(slope, a_depth));
         let by = lanes.sub(lanes.sub(lanes.load(b), origin), lanes.mul(slope, b_depth));

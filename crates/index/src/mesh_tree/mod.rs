@@ -11,6 +11,7 @@ use crate::bsp::visited::Visited;
 use crate::bsp::{BspTree, BuildError, BuildParams, TreeStats};
 use crate::parallel;
 use crate::simd::{Backend, LANES, Lanes, Task};
+use crate::wide::batch::{Question, walk_together};
 use crate::wide::walk::{Counter, TraversalCost, Uncounted, walk};
 use block::Block;
 use heliostat_geometry::triangle::{TriangleHit, TriangleRay, intersect};
@@ -116,6 +117,21 @@ impl MeshTree {
         self.tree.backend().run(Occluded { tree: self, ray })
     }
 
+    /// [`MeshTree::closest_hit`] of many rays, in their order, in about half the time; rays that start and run alike belong beside
+    /// each other.
+    pub fn closest_hits(&self, rays: &[Ray]) -> Vec<Option<MeshHit>> {
+        let mut hits = Vec::with_capacity(rays.len());
+        self.tree.backend().run(ManyClosest { tree: self, rays, hits: &mut hits });
+        hits
+    }
+
+    /// [`MeshTree::any_hit`] of many rays, in their order.
+    pub fn any_hits(&self, rays: &[Ray]) -> Vec<bool> {
+        let mut hits = Vec::with_capacity(rays.len());
+        self.tree.backend().run(ManyOccluded { tree: self, rays, hits: &mut hits });
+        hits
+    }
+
     /// Visits every hit within the range of the ray, each triangle once, in no certain order.
     pub fn for_each_hit(&self, ray: &Ray, mut visit: impl FnMut(MeshHit)) {
         let mut visited = Visited::new();
@@ -162,6 +178,66 @@ impl Task for Occluded<'_> {
         let mut search = Any::new(lanes, tree, ray);
         walk(lanes, tree.tree.wide(), ray, ray.range.max, &mut search, &mut Uncounted);
         search.found
+    }
+}
+
+/// The query for the nearest hits of many rays.
+struct ManyClosest<'a> {
+    tree: &'a MeshTree,
+    rays: &'a [Ray],
+    hits: &'a mut Vec<Option<MeshHit>>,
+}
+
+impl Task for ManyClosest<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(mut self, lanes: L) {
+        walk_together(lanes, self.tree.tree.wide(), self.rays, &mut self);
+    }
+}
+
+impl<'a> Question<'a> for ManyClosest<'a> {
+    type Search = Nearest<'a>;
+
+    #[inline(always)]
+    fn start<L: Lanes>(&self, lanes: L, ray: &'a Ray) -> Nearest<'a> {
+        Nearest::new(lanes, self.tree, ray)
+    }
+
+    #[inline(always)]
+    fn finish(&mut self, search: &Nearest<'a>) {
+        self.hits.push(search.finish());
+    }
+}
+
+/// The query for any hit of many rays.
+struct ManyOccluded<'a> {
+    tree: &'a MeshTree,
+    rays: &'a [Ray],
+    hits: &'a mut Vec<bool>,
+}
+
+impl Task for ManyOccluded<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(mut self, lanes: L) {
+        walk_together(lanes, self.tree.tree.wide(), self.rays, &mut self);
+    }
+}
+
+impl<'a> Question<'a> for ManyOccluded<'a> {
+    type Search = Any<'a>;
+
+    #[inline(always)]
+    fn start<L: Lanes>(&self, lanes: L, ray: &'a Ray) -> Any<'a> {
+        Any::new(lanes, self.tree, ray)
+    }
+
+    #[inline(always)]
+    fn finish(&mut self, search: &Any<'a>) {
+        self.hits.push(search.found);
     }
 }
 

@@ -75,7 +75,7 @@ impl<'t> Nearest<'t> {
 
     /// The nearest hit.
     #[inline(always)]
-    pub(super) fn finish(self) -> Option<MeshHit> {
+    pub(super) fn finish(&self) -> Option<MeshHit> {
         // Whatever put it in front of the others was certain.
         let slot = self.best?;
         match self.block_ray.certain_hit(&self.tree.blocks[slot / LANES], slot % LANES) {
@@ -93,6 +93,8 @@ impl<'t> Nearest<'t> {
 }
 
 impl Search for Nearest<'_> {
+    const SHORTENS: bool = true;
+
     #[inline(always)]
     fn leaf<L: Lanes>(&mut self, lanes: L, leaf: u32, counter: &mut impl Counter) -> f32 {
         counter.leaf(LANES * blocks_of(leaf).1);
@@ -137,6 +139,8 @@ impl<'t> Any<'t> {
 }
 
 impl Search for Any<'_> {
+    const SHORTENS: bool = false;
+
     #[inline(always)]
     fn leaf<L: Lanes>(&mut self, lanes: L, leaf: u32, counter: &mut impl Counter) -> f32 {
         counter.leaf(LANES * blocks_of(leaf).1);
@@ -175,6 +179,8 @@ impl<'t, V: FnMut(MeshHit)> Each<'t, V> {
 }
 
 impl<V: FnMut(MeshHit)> Search for Each<'_, V> {
+    const SHORTENS: bool = false;
+
     #[inline(always)]
     fn leaf<L: Lanes>(&mut self, lanes: L, leaf: u32, counter: &mut impl Counter) -> f32 {
         counter.leaf(LANES * blocks_of(leaf).1);

@@ -114,7 +114,7 @@ pub(crate) trait Lanes: Copy {
 
     /// The first child with `near <= far`, in the order in which `order` names their lanes (three bits each, the first in the
     /// lowest); the others are pushed, so that the next one in order is on top. Where there is none, the child on top of the
-    /// stack, which must not be the last one.
+    /// stack. The distances are kept with the children only where some may have to be forgotten.
     fn enter(
         self,
         stack: &mut Self::Stack<'_>,
@@ -122,6 +122,19 @@ pub(crate) trait Lanes: Copy {
         far: Self::F,
         children: &[u32; LANES],
         order: u32,
+        forgets: bool,
+    ) -> u32;
+
+    /// [`Lanes::enter`] without a branch, for many rays in turn: what comes next is hard to foresee. Where the stack is empty,
+    /// [`END`] comes from below it, and nothing may be taken from it any more.
+    fn enter_evenly(
+        self,
+        stack: &mut Self::Stack<'_>,
+        near: Self::F,
+        far: Self::F,
+        children: &[u32; LANES],
+        order: u32,
+        forgets: bool,
     ) -> u32;
 
     /// Forgets all children on the stack that are entered beyond `limit`.

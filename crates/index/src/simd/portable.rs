@@ -129,6 +129,7 @@ impl Lanes for Portable {
         far: Self::F,
         children: &[u32; LANES],
         order: u32,
+        _forgets: bool,
     ) -> u32 {
         for place in (0..LANES).rev() {
             let lane = (order >> (3 * place)) as usize % LANES;
@@ -137,5 +138,18 @@ impl Lanes for Portable {
             }
         }
         stack.pop()
+    }
+
+    #[inline(always)]
+    fn enter_evenly(
+        self,
+        stack: &mut Self::Stack<'_>,
+        near: Self::F,
+        far: Self::F,
+        children: &[u32; LANES],
+        order: u32,
+        forgets: bool,
+    ) -> u32 {
+        self.enter(stack, near, far, children, order, forgets)
     }
 }

@@ -9,12 +9,12 @@ use std::mem::MaybeUninit;
 pub(crate) const END: u32 = u32::MAX;
 
 /// Places of a stack: a node leaves at most seven children behind; rows are written whole.
-const PLACES: usize = (LANES - 1) * (MAX_DEPTH as usize + 1) + 3 * LANES;
+const PLACES: usize = ((LANES - 1) * (MAX_DEPTH as usize + 1) + 3 * LANES).next_multiple_of(LANES);
 
 /// Room for a stack: places are written before they are read, because clearing them would cost more than a short walk.
 pub(crate) struct StackRoom(MaybeUninit<Places>);
 
-#[repr(C)]
+#[repr(C, align(32))]
 struct Places {
     children: [u32; PLACES],
     nears: [f32; PLACES],
@@ -22,7 +22,7 @@ struct Places {
 
 impl StackRoom {
     #[inline(always)]
-    pub(crate) fn new() -> Self {
+    pub(crate) const fn new() -> Self {
         Self(MaybeUninit::uninit())
     }
 }
@@ -31,6 +31,12 @@ impl StackRoom {
 pub(crate) trait Pending<'r> {
     /// An empty stack.
     fn new(room: &'r mut StackRoom) -> Self;
+
+    /// An empty stack with [`END`] below it, for [`super::Lanes::enter_evenly`].
+    fn with_end(room: &'r mut StackRoom) -> Self;
+
+    /// Forgets all children.
+    fn clear(&mut self);
 
     /// Takes the child on top; [`END`] where there is none.
     fn pop(&mut self) -> u32;
@@ -53,6 +59,9 @@ impl<const DOWN: bool> Stack<'_, DOWN> {
     /// The top of an empty stack.
     const BOTTOM: usize = if DOWN { PLACES - LANES } else { LANES };
 
+    /// Where the row of the lowest places starts.
+    const LOWEST_ROW: usize = if DOWN { Self::BOTTOM - LANES } else { Self::BOTTOM + 1 };
+
     #[inline(always)]
     fn write(&mut self, place: usize, child: u32, near: f32) {
         debug_assert!(place < PLACES);
@@ -73,7 +82,7 @@ impl<const DOWN: bool> Stack<'_, DOWN> {
     #[inline(always)]
     pub(super) fn push(&mut self, child: u32, near: f32) {
         self.check();
-        self.top = Self::above(self.top);
+        self.grow(1);
         self.write(self.top, child, near);
     }
 
@@ -94,35 +103,38 @@ impl<const DOWN: bool> Stack<'_, DOWN> {
         unsafe { (self.children.add(start), self.nears.add(start)) }
     }
 
-    /// Puts the row that was written on top but for its first child, which is taken at once; without any, the old top is.
+    /// Where the lowest row starts; all of it is written, if only with nothing.
     #[inline(always)]
-    pub(super) fn take_one_of(&mut self, count: usize) {
-        self.top = if DOWN { self.top + 1 - count } else { self.top + count - 1 };
+    pub(super) fn lowest_row(&self) -> (*const u32, *const f32) {
+        // SAFETY: the row is inside.
+        unsafe { (self.children.add(Self::LOWEST_ROW), self.nears.add(Self::LOWEST_ROW)) }
     }
 
-    /// [`Stack::take_one_of`], and the child that is taken.
+    /// How many children there are.
     #[inline(always)]
-    pub(super) fn take_row(&mut self, count: usize) -> u32 {
-        self.take_one_of(count);
-        // SAFETY: the place is the one that was on top just now.
-        unsafe { self.children.add(Self::above(self.top)).read() }
-    }
-}
-
-impl Stack<'_, true> {
-    /// How many children there are, and where the top one's row starts.
-    #[inline(always)]
-    pub(super) fn rows(&self) -> (usize, *mut u32, *mut f32) {
-        // SAFETY: the top is a place of the stack.
-        unsafe { (Self::BOTTOM - self.top, self.children.add(self.top), self.nears.add(self.top)) }
+    pub(super) fn len(&self) -> usize {
+        if DOWN { Self::BOTTOM - self.top } else { self.top - Self::BOTTOM }
     }
 
-    /// Leaves the lowest `count` children; answers where their row starts.
+    /// Makes the `count` children that were written next to the top part of the stack.
     #[inline(always)]
-    pub(super) fn shrink(&mut self, count: usize) -> (*mut u32, *mut f32) {
-        self.top = Self::BOTTOM - count;
-        // SAFETY: the top is a place of the stack.
-        unsafe { (self.children.add(self.top), self.nears.add(self.top)) }
+    pub(super) fn grow(&mut self, count: usize) {
+        self.top = if DOWN { self.top - count } else { self.top + count };
+    }
+
+    /// The child on top; without any, what is below the stack.
+    #[inline(always)]
+    pub(super) fn top(&self) -> u32 {
+        // SAFETY: the place is one of those that are written.
+        unsafe { self.children.add(self.top).read() }
+    }
+
+    /// Takes the child on top away.
+    #[inline(always)]
+    pub(super) fn take(&mut self) -> u32 {
+        let child = self.top();
+        self.top = if DOWN { self.top + 1 } else { self.top - 1 };
+        child
     }
 }
 
@@ -132,7 +144,24 @@ impl<'r, const DOWN: bool> Pending<'r> for Stack<'r, DOWN> {
         let places = room.0.as_mut_ptr();
         // SAFETY: the places are there, if not yet written; these are their addresses.
         let (children, nears) = unsafe { (&raw mut (*places).children, &raw mut (*places).nears) };
-        Self { children: children.cast(), nears: nears.cast(), top: Self::BOTTOM, room: PhantomData }
+        let mut stack =
+            Self { children: children.cast(), nears: nears.cast(), top: Self::BOTTOM, room: PhantomData };
+        for place in Self::LOWEST_ROW..Self::LOWEST_ROW + LANES {
+            stack.write(place, END, f32::INFINITY);
+        }
+        stack
+    }
+
+    #[inline(always)]
+    fn with_end(room: &'r mut StackRoom) -> Self {
+        let mut stack = Self::new(room);
+        stack.write(Self::BOTTOM, END, f32::NEG_INFINITY);
+        stack
+    }
+
+    #[inline(always)]
+    fn clear(&mut self) {
+        self.top = Self::BOTTOM;
     }
 
     #[inline(always)]
@@ -140,10 +169,7 @@ impl<'r, const DOWN: bool> Pending<'r> for Stack<'r, DOWN> {
         if self.top == Self::BOTTOM {
             return END;
         }
-        // SAFETY: the place is one of those that are written.
-        let child = unsafe { self.children.add(self.top).read() };
-        self.take_one_of(0);
-        child
+        self.take()
     }
 
     #[inline(always)]

@@ -229,26 +229,111 @@ impl Lanes for Avx2 {
         far: __m256,
         children: &[u32; LANES],
         order: u32,
+        forgets: bool,
     ) -> u32 {
-        // SAFETY: see `splat`; a row fits at the room of the stack.
+        let row = self.row(near, far, children, order);
+        if row.hits == 0 {
+            return stack.pop();
+        }
+        // It is known sooner by its lane.
+        let first = row.ordered[row.hits.ilog2() as usize % LANES];
+        row.put(stack, forgets);
+        first
+    }
+
+    #[inline(always)]
+    fn enter_evenly(
+        self,
+        stack: &mut Self::Stack<'_>,
+        near: __m256,
+        far: __m256,
+        children: &[u32; LANES],
+        order: u32,
+        forgets: bool,
+    ) -> u32 {
+        self.row(near, far, children, order).put(stack, forgets)
+    }
+
+    #[inline(always)]
+    fn forget_beyond(self, stack: &mut Self::Stack<'_>, limit: f32) {
+        let count = stack.len();
+        if count > LANES {
+            stack.forget_beyond(limit);
+            return;
+        }
+        let (children, nears) = stack.lowest_row();
+        // SAFETY: see `splat`; the lowest row is written, if only with nothing.
+        unsafe {
+            let (children, nears) = (_mm256_loadu_si256(children.cast()), _mm256_loadu_ps(nears));
+            let near = _mm256_cmp_ps::<_CMP_LE_OQ>(nears, _mm256_set1_ps(limit));
+            let kept = _mm256_movemask_ps(near) as u32 & !(u32::MAX << count);
+            let lanes = self.packed(kept);
+            stack.clear();
+            let (to_children, to_nears) = stack.row(LANES);
+            _mm256_storeu_si256(to_children.cast(), _mm256_permutevar8x32_epi32(children, lanes));
+            _mm256_storeu_ps(to_nears, _mm256_permutevar8x32_ps(nears, lanes));
+            stack.grow(kept.count_ones() as usize);
+        }
+    }
+}
+
+impl Avx2 {
+    /// The numbers of the lanes in a set, in order.
+    #[inline(always)]
+    fn packed(self, set: u32) -> __m256i {
+        // SAFETY: see `splat`.
+        unsafe { _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(PACKED[set as usize & 255] as i64)) }
+    }
+
+    /// The children that are hit, from the last to the first.
+    #[inline(always)]
+    fn row(self, near: __m256, far: __m256, children: &[u32; LANES], order: u32) -> Hits {
+        // SAFETY: see `splat`.
         unsafe {
             let shifts = _mm256_setr_epi32(21, 18, 15, 12, 9, 6, 3, 0);
             let lanes = _mm256_srlv_epi32(_mm256_set1_epi32(order as i32), shifts);
+            let all = _mm256_loadu_si256(children.as_ptr().cast());
+            let mut ordered = [0; LANES];
+            _mm256_storeu_si256(ordered.as_mut_ptr().cast(), _mm256_permutevar8x32_epi32(all, lanes));
             let hit = _mm256_cmp_ps::<_CMP_LE_OQ>(near, far);
             let hits = _mm256_movemask_ps(_mm256_permutevar8x32_ps(hit, lanes)) as u32;
-            let packed = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(PACKED[hits as usize & 255] as i64));
-            let lanes = _mm256_permutevar8x32_epi32(lanes, packed);
-            let children = _mm256_permutevar8x32_epi32(_mm256_loadu_si256(children.as_ptr().cast()), lanes);
-            let near = _mm256_permutevar8x32_ps(near, lanes);
-            if hits == 0 {
-                return stack.pop();
+            let lanes = _mm256_permutevar8x32_epi32(lanes, self.packed(hits));
+            Hits {
+                hits,
+                ordered,
+                children: _mm256_permutevar8x32_epi32(all, lanes),
+                nears: _mm256_permutevar8x32_ps(near, lanes),
             }
-            let count = hits.count_ones() as usize;
-            let (to_children, to_nears) = stack.row(count);
-            _mm256_storeu_si256(to_children.cast(), children);
-            _mm256_storeu_ps(to_nears, near);
-            stack.take_row(count)
         }
+    }
+}
+
+/// Children that are hit.
+struct Hits {
+    /// A bit for each, the first to be entered highest.
+    hits: u32,
+    /// All children in that order.
+    ordered: [u32; LANES],
+    /// Those that are hit, packed.
+    children: __m256i,
+    nears: __m256,
+}
+
+impl Hits {
+    /// Pushes all but the one to be entered first, which comes back; where there is none, what was on top.
+    #[inline(always)]
+    fn put(self, stack: &mut Stack<'_, false>, forgets: bool) -> u32 {
+        let count = self.hits.count_ones() as usize;
+        let (to_children, to_nears) = stack.row(count);
+        // SAFETY: AVX2 made the row, and there is room for it.
+        unsafe {
+            _mm256_storeu_si256(to_children.cast(), self.children);
+            if forgets {
+                _mm256_storeu_ps(to_nears, self.nears);
+            }
+        }
+        stack.grow(count);
+        stack.take()
     }
 }
 
@@ -300,49 +385,122 @@ impl Lanes for Avx512 {
         far: __m256,
         children: &[u32; LANES],
         order: u32,
+        forgets: bool,
     ) -> u32 {
-        // SAFETY: see `splat`; a row fits at the room of the stack.
+        let (hits, nears, children) = self.in_order(near, far, children, order);
+        if hits == 0 {
+            return stack.pop();
+        }
+        // SAFETY: see `splat`.
+        let children = unsafe { _mm256_maskz_compress_epi32(hits, children) };
+        self.push(stack, hits, children, if forgets { Some(nears) } else { None });
+        stack.take();
+        // It is known sooner from its register.
+        self.first(children)
+    }
+
+    #[inline(always)]
+    fn enter_evenly(
+        self,
+        stack: &mut Self::Stack<'_>,
+        near: __m256,
+        far: __m256,
+        children: &[u32; LANES],
+        order: u32,
+        forgets: bool,
+    ) -> u32 {
+        let (hits, nears, children) = self.in_order(near, far, children, order);
+        // What is on top comes first where there are no hits.
+        // SAFETY: see `splat`.
+        let children =
+            unsafe { _mm256_mask_compress_epi32(_mm256_set1_epi32(stack.top() as i32), hits, children) };
+        self.push_row(stack, hits, children, if forgets { Some(nears) } else { None });
+        stack.take();
+        self.first(children)
+    }
+
+    #[inline(always)]
+    fn forget_beyond(self, stack: &mut Self::Stack<'_>, limit: f32) {
+        let count = stack.len();
+        if count > LANES {
+            stack.forget_beyond(limit);
+            return;
+        }
+        let (children, nears) = stack.lowest_row();
+        // SAFETY: see `splat`; the lowest row is written, if only with nothing.
+        unsafe {
+            let there = (0xFF00_u32 >> count) as u8;
+            let (children, nears) = (_mm256_load_si256(children.cast()), _mm256_load_ps(nears));
+            let kept = there & _mm256_cmp_ps_mask::<_CMP_LE_OQ>(nears, _mm256_set1_ps(limit));
+            stack.clear();
+            let children = _mm256_maskz_compress_epi32(kept, children);
+            self.push_row(stack, kept, children, Some(nears));
+        }
+    }
+}
+
+impl Avx512 {
+    /// The children in the order in which the ray meets them: those that are hit, where, and what they are.
+    #[inline(always)]
+    fn in_order(
+        self,
+        near: __m256,
+        far: __m256,
+        children: &[u32; LANES],
+        order: u32,
+    ) -> (__mmask8, __m256, __m256i) {
+        // SAFETY: see `splat`.
         unsafe {
             let shifts = _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21);
             let lanes = _mm256_srlv_epi32(_mm256_set1_epi32(order as i32), shifts);
             let near = _mm256_permutexvar_ps(lanes, near);
             let far = _mm256_permutexvar_ps(lanes, far);
             let children = _mm256_permutexvar_epi32(lanes, _mm256_loadu_si256(children.as_ptr().cast()));
-            let hits = _mm256_cmp_ps_mask::<_CMP_LE_OQ>(near, far);
-            if hits == 0 {
-                return stack.pop();
-            }
-            let children = _mm256_maskz_compress_epi32(hits, children);
-            let near = _mm256_maskz_compress_ps(hits, near);
-            let count = hits.count_ones() as usize;
-            let used = _bzhi_u32(0xFF, count as u32) as u8;
-            let (to_children, to_nears) = stack.row(count);
-            _mm256_mask_storeu_epi32(to_children.cast(), used, children);
-            _mm256_mask_storeu_ps(to_nears, used, near);
-            stack.take_one_of(count);
-            // The first lane is known sooner from its register.
-            _mm_cvtsi128_si32(_mm256_castsi256_si128(children)) as u32
+            (_mm256_cmp_ps_mask::<_CMP_LE_OQ>(near, far), near, children)
         }
     }
 
+    /// Pushes the hits among the distances, and as many packed children, the first on top.
     #[inline(always)]
-    fn forget_beyond(self, stack: &mut Self::Stack<'_>, limit: f32) {
-        let (count, children, nears) = stack.rows();
-        if count > LANES {
-            stack.forget_beyond(limit);
-            return;
-        }
-        // SAFETY: see `splat`; only places that are written are read.
+    fn push(self, stack: &mut Stack<'_, true>, hits: __mmask8, children: __m256i, nears: Option<__m256>) {
+        let count = hits.count_ones();
+        let (to_children, to_nears) = stack.row(count as usize);
+        // SAFETY: see `splat`; there is room for a row.
         unsafe {
-            let there = _bzhi_u32(0xFF, count as u32) as u8;
-            let children = _mm256_maskz_loadu_epi32(there, children.cast());
-            let nears = _mm256_maskz_loadu_ps(there, nears);
-            let kept = _mm256_mask_cmp_ps_mask::<_CMP_LE_OQ>(there, nears, _mm256_set1_ps(limit));
-            let count = kept.count_ones();
             let used = _bzhi_u32(0xFF, count) as u8;
-            let (to_children, to_nears) = stack.shrink(count as usize);
-            _mm256_mask_storeu_epi32(to_children.cast(), used, _mm256_maskz_compress_epi32(kept, children));
-            _mm256_mask_storeu_ps(to_nears, used, _mm256_maskz_compress_ps(kept, nears));
+            _mm256_mask_storeu_epi32(to_children.cast(), used, children);
+            if let Some(nears) = nears {
+                _mm256_mask_storeu_ps(to_nears, used, _mm256_maskz_compress_ps(hits, nears));
+            }
         }
+        stack.grow(count as usize);
+    }
+
+    /// [`Avx512::push`] for many rays in turn: stores that leave lanes out hold up the loads of other rays behind them.
+    #[inline(always)]
+    fn push_row(self, stack: &mut Stack<'_, true>, hits: __mmask8, children: __m256i, nears: Option<__m256>) {
+        let count = hits.count_ones() as usize;
+        // The whole row is stored, its end turned to the old top; what lies before its start is free.
+        let (to_children, to_nears) = stack.row(LANES);
+        // SAFETY: see `splat`; there is room for a row.
+        unsafe {
+            let turn = _mm256_loadu_si256(COUNT.as_ptr().add(count).cast());
+            _mm256_storeu_si256(to_children.cast(), _mm256_permutevar8x32_epi32(children, turn));
+            if let Some(nears) = nears {
+                let nears = _mm256_maskz_compress_ps(hits, nears);
+                _mm256_storeu_ps(to_nears, _mm256_permutevar8x32_ps(nears, turn));
+            }
+        }
+        stack.grow(count);
+    }
+
+    /// The first of packed children.
+    #[inline(always)]
+    fn first(self, children: __m256i) -> u32 {
+        // SAFETY: see `splat`.
+        unsafe { _mm_cvtsi128_si32(_mm256_castsi256_si128(children)) as u32 }
     }
 }
+
+/// The numbers of lanes, once more behind the last.
+static COUNT: [i32; 2 * LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7];

@@ -9,6 +9,7 @@
 //! Wald, Benthin, Boulos, "Getting Rid of Packets", 2008 (wide nodes); Fuetterling et al., "Accelerated Single Ray Tracing
 //! for Wide Vector Units", HPG 2017 (orders by octant, compressed children).
 
+pub(crate) mod batch;
 pub(crate) mod collapse;
 pub(crate) mod ray;
 mod validate;

@@ -55,6 +55,9 @@ impl Counter for Uncounted {
 
 /// What is looked for in leaves.
 pub(crate) trait Search {
+    /// Whether a leaf may bring the distance down up to which hits matter.
+    const SHORTENS: bool;
+
     /// Searches a leaf; answers up to which distance hits still matter. Minus infinity ends the walk.
     fn leaf<L: Lanes>(&mut self, lanes: L, leaf: u32, counter: &mut impl Counter) -> f32;
 }
@@ -84,12 +87,12 @@ pub(crate) fn walk<L: Lanes>(
 }
 
 #[inline(always)]
-fn walk_boxes<L: Lanes>(
+fn walk_boxes<L: Lanes, S: Search>(
     lanes: L,
     nodes: &[WideNode],
     boxes: &impl Meet<L>,
     mut limit: f32,
-    search: &mut impl Search,
+    search: &mut S,
     counter: &mut impl Counter,
 ) {
     let octant = boxes.sides().octant;
@@ -101,7 +104,8 @@ fn walk_boxes<L: Lanes>(
             counter.node();
             let node = &nodes[child as usize];
             let (near, far) = boxes.meet(lanes, node, limit);
-            child = lanes.enter(&mut stack, near, far, &node.children, *octant.of(&node.orders));
+            let order = *octant.of(&node.orders);
+            child = lanes.enter(&mut stack, near, far, &node.children, order, S::SHORTENS);
         }
         if child == END {
             return;
@@ -110,7 +114,7 @@ fn walk_boxes<L: Lanes>(
         if end == f32::NEG_INFINITY {
             return;
         }
-        if end < limit {
+        if S::SHORTENS && end < limit {
             limit = end;
             lanes.forget_beyond(&mut stack, limit);
         }
@@ -120,15 +124,15 @@ fn walk_boxes<L: Lanes>(
 
 /// Which sides a ray meets first, by axis, and which last.
 #[derive(Clone, Copy)]
-struct Sides {
+pub(super) struct Sides {
     near: [Pick<Row, 2>; 3],
     far: [Pick<Row, 2>; 3],
-    octant: Pick<u32, LANES>,
+    pub(super) octant: Pick<u32, LANES>,
 }
 
 impl Sides {
     #[inline(always)]
-    fn new(ray: &BoxRay) -> Self {
+    pub(super) fn new(ray: &BoxRay) -> Self {
         let octant = ray.octant();
         Self {
             near: [Pick::new(octant), Pick::new(octant >> 1), Pick::new(octant >> 2)],
@@ -139,7 +143,7 @@ impl Sides {
 }
 
 /// A ray that is compared with boxes.
-trait Meet<L: Lanes> {
+pub(super) trait Meet<L: Lanes> {
     fn sides(&self) -> &Sides;
 
     /// Where the ray enters and leaves each child, within its range up to `limit`. A NaN distance cuts off nothing.
@@ -147,7 +151,7 @@ trait Meet<L: Lanes> {
 }
 
 /// One padding for all boxes.
-struct Boxes<L: Lanes> {
+pub(super) struct Boxes<L: Lanes> {
     sides: Sides,
     inverse: [L::F; 3],
     near_offset: [L::F; 3],
@@ -157,7 +161,7 @@ struct Boxes<L: Lanes> {
 
 impl<L: Lanes> Boxes<L> {
     #[inline(always)]
-    fn new(lanes: L, sides: Sides, ray: &BoxRay) -> Self {
+    pub(super) fn new(lanes: L, sides: Sides, ray: &BoxRay) -> Self {
         Self {
             sides,
             inverse: splat(lanes, ray.inverse),
