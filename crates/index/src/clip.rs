@@ -25,12 +25,16 @@ impl Polygon {
     }
 
     /// Keeps the part where `side * (p[axis] - plane) >= 0`.
+    #[inline]
     fn cut(&self, axis: usize, plane: f64, side: f64) -> Self {
         let mut kept = Self { corners: [DVec3::ZERO; MAX_CORNERS], len: 0 };
         let corners = &self.corners[..self.len];
-        for (k, &p) in corners.iter().enumerate() {
-            let q = corners[(k + 1) % corners.len()];
-            let (dp, dq) = (side * (p[axis] - plane), side * (q[axis] - plane));
+        let Some(&first) = corners.first() else { return kept };
+        let beyond = |p: &DVec3| side * (p.as_ref()[axis] - plane);
+        let (mut p, mut dp) = (first, beyond(&first));
+        for k in 1..=corners.len() {
+            let q = corners.get(k).copied().unwrap_or(first);
+            let dq = beyond(&q);
             if dp >= 0.0 {
                 kept.push(p);
             }
@@ -39,6 +43,7 @@ impl Polygon {
                 crossing[axis] = plane;
                 kept.push(crossing);
             }
+            (p, dp) = (q, dq);
         }
         kept
     }
@@ -64,24 +69,21 @@ pub(crate) fn clipped_triangle_bounds(corners: [Vec3; 3], cell: Aabb) -> Aabb {
         }
     }
 
-    let mut bounds = Aabb::EMPTY;
-    for &p in &polygon.corners[..polygon.len] {
-        bounds = bounds.union(around_rounded(p));
-    }
-    bounds.intersect(overlap)
+    let corners = &polygon.corners[..polygon.len];
+    let low = corners.iter().fold(DVec3::INFINITY, |low, &p| low.min(p));
+    let high = corners.iter().fold(DVec3::NEG_INFINITY, |high, &p| high.max(p));
+    Aabb { min: round_down(low), max: round_up(high) }.intersect(overlap)
 }
 
-/// The smallest box of `f32` corners around a point in `f64`.
-fn around_rounded(p: DVec3) -> Aabb {
+/// The largest `f32` corner not above.
+fn round_down(p: DVec3) -> Vec3 {
     let nearest = p.as_vec3();
-    let (mut min, mut max) = (nearest, nearest);
-    for axis in 0..3 {
-        let rounded = f64::from(nearest[axis]);
-        if rounded > p[axis] {
-            min[axis] = nearest[axis].next_down();
-        } else if rounded < p[axis] {
-            max[axis] = nearest[axis].next_up();
-        }
-    }
-    Aabb { min, max }
+    let one =
+        |rounded: f32, exact: f64| if f64::from(rounded) > exact { rounded.next_down() } else { rounded };
+    Vec3::new(one(nearest.x, p.x), one(nearest.y, p.y), one(nearest.z, p.z))
+}
+
+/// The smallest `f32` corner not below.
+fn round_up(p: DVec3) -> Vec3 {
+    -round_down(-p)
 }

@@ -4,7 +4,9 @@
 //! as that distance is the way of the ray, the walk allows for it; what is left is the size of the primitive.
 //! The walk allows for *usual* sizes everywhere; primitives beyond are grown instead.
 
+use super::pieces::Pieces;
 use super::reference::Reference;
+use crate::parallel;
 use glam::Vec3;
 use heliostat_geometry::Aabb;
 use heliostat_geometry::error_bound::{cell_padding, clipped_corner};
@@ -22,11 +24,17 @@ pub(crate) struct Blur {
 }
 
 impl Blur {
-    pub(crate) fn of(refs: &[Reference]) -> Self {
-        let mut sizes: Vec<f32> = refs.iter().map(|r| r.bounds().size().max_element()).collect();
-        let around = refs.iter().fold(Aabb::EMPTY, |around, r| around.union(r.bounds()));
+    pub(crate) fn of(refs: &Pieces) -> Self {
+        let sizes_of =
+            |piece: &Vec<Reference>| piece.iter().map(|r| r.bounds().size().max_element()).collect();
+        let join = |mut some: Vec<f32>, more: Vec<f32>| {
+            some.extend(more);
+            some
+        };
+        let mut sizes = parallel::map_reduce(refs.as_slices(), sizes_of, join).unwrap_or_default();
         let Some(last) = sizes.len().checked_sub(1) else { return Self::default() };
         let (_, &mut usual_size, _) = sizes.select_nth_unstable_by(last - last / RARE, f32::total_cmp);
+        let around = refs.around().bounds();
         let extent = around.min.abs().max(around.max.abs()).max_element();
         Self { usual_size, clipping: clipped_corner(extent) }
     }
