@@ -2,8 +2,8 @@
 
 use super::blur::{Blur, grow};
 use super::reference::{Around, Reference};
-use super::sah::Bins;
-use crate::bsp::params::{BuildParams, SahCosts, SplitRule};
+use super::sah::{Bins, Choice};
+use crate::bsp::params::{BuildParams, LeafCosts, SahCosts, SplitRule};
 use crate::bsp::split::{Plane, Side};
 use crate::parallel;
 use crate::primitives::Primitives;
@@ -112,23 +112,40 @@ impl<P: Primitives + ?Sized> Cutter<'_, P> {
     {
         let costs = costs.of_group(self.group);
         let choice = if count < MANY {
-            let mut bins = Bins::<16>::new(cell.content);
-            refs.iter().for_each(|some| bins.add(some.as_ref()));
-            bins.choose(count, cell.content, cell.bounds, &costs, cell.budget)
+            Self::choose::<16, S>(cell, count, refs, &costs)
         } else {
-            let add = |some: &S| {
-                let mut bins = Bins::<32>::new(cell.content);
-                bins.add(some.as_ref());
-                bins
-            };
-            let bins = parallel::map_reduce(refs, add, |a, b| a.merge(&b));
-            bins.and_then(|bins| bins.choose(count, cell.content, cell.bounds, &costs, cell.budget))
+            Self::choose::<32, S>(cell, count, refs, &costs)
         }?;
         let gains = choice.cost < costs.leaf(count as u32);
         if !gains && count <= HOPE_ABOVE {
             return None;
         }
         Some(Decision { plane: choice.plane, wasted: if gains { 0 } else { cell.wasted + 1 } })
+    }
+
+    /// The cheapest plane that `N` bins know of.
+    fn choose<const N: usize, S>(cell: &Cell, count: usize, refs: &[S], costs: &LeafCosts) -> Option<Choice>
+    where
+        S: AsRef<[Reference]> + Sync,
+    {
+        let mut bins = Bins::<N>::new(cell.content);
+        match refs {
+            // Bins are large: they stay where they are.
+            [only] => bins.add(only.as_ref()),
+            _ => {
+                let add = |some: &S| {
+                    let mut bins = Box::new(Bins::<N>::new(cell.content));
+                    bins.add(some.as_ref());
+                    bins
+                };
+                let merge = |mut a: Box<Bins<N>>, b: Box<Bins<N>>| {
+                    a.merge(&b);
+                    a
+                };
+                bins.merge(&*parallel::map_reduce(refs, add, merge)?);
+            }
+        }
+        bins.choose(count, cell.content, cell.bounds, costs, cell.budget)
     }
 
     /// Keeps what lies below a plane at the beginning of `refs` and puts what lies above it into `spill`, which is as long;

@@ -87,14 +87,13 @@ impl<const N: usize> Bins<N> {
     }
 
     /// Adds what was counted elsewhere, in bins over the same content.
-    pub(super) fn merge(mut self, other: &Self) -> Self {
+    pub(super) fn merge(&mut self, other: &Self) {
         for axis in 0..3 {
             for i in 0..N {
                 self.starts[axis][i].merge(&other.starts[axis][i]);
                 self.ends[axis][i].merge(&other.ends[axis][i]);
             }
         }
-        self
     }
 
     /// The cheapest plane that duplicates at most `budget` of `count` references; `None` when none separates anything.
