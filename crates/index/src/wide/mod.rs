@@ -10,6 +10,7 @@
 //! for Wide Vector Units", HPG 2017 (orders by octant, compressed children).
 
 pub(crate) mod collapse;
+mod plans;
 pub(crate) mod ray;
 mod validate;
 pub(crate) mod walk;
