@@ -61,3 +61,16 @@ pub(crate) fn map_chunks<T: Sync, R: Send>(
 pub(crate) fn map_chunks<T, R>(items: &[T], chunk: usize, map: impl Fn(&[T]) -> R) -> Vec<R> {
     items.chunks(chunk).map(map).collect()
 }
+
+/// Maps the numbers below `count`; the results are in order.
+#[cfg(feature = "parallel")]
+pub(crate) fn map_numbers<R: Send>(count: usize, map: impl Fn(usize) -> R + Send + Sync) -> Vec<R> {
+    use rayon::prelude::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
+    (0..count).into_par_iter().with_min_len(4096).map(map).collect()
+}
+
+/// Maps the numbers below `count`, in order.
+#[cfg(not(feature = "parallel"))]
+pub(crate) fn map_numbers<R>(count: usize, map: impl Fn(usize) -> R) -> Vec<R> {
+    (0..count).map(map).collect()
+}

@@ -18,22 +18,50 @@ pub(crate) fn collapse(
     leaf: impl Fn(u32, &mut Vec<u32>) + Sync,
 ) -> Vec<WideNode> {
     let tree = Collapse { nodes, bounds, plans: Plans::new(nodes, bounds), leaf };
-    let mut roots = Vec::new();
-    tree.lay(0, TOP_LEVELS, |root, _, _| roots.push(root));
-    let mut subtrees = parallel::map_each(roots, |root| tree.lay(root, u32::MAX, |_, _, _| {})).into_iter();
-    tree.lay(0, TOP_LEVELS, |_, place, wide| {
-        subtrees.next().into_iter().for_each(|part| graft(wide, place, part))
-    })
+    let mut grafts = Vec::new();
+    let top = tree.lay(0, TOP_LEVELS, |root, place, before| grafts.push((root, place, before)));
+    let subtrees = parallel::map_each(grafts, |(root, place, before)| Graft {
+        nodes: tree.lay(root, u32::MAX, |_, _, _| {}),
+        place,
+        before,
+    });
+    joined(top, &subtrees)
 }
 
-/// Puts a subtree with its root at `place`, and all else behind what is there.
-fn graft(wide: &mut Vec<WideNode>, place: usize, mut subtree: Vec<WideNode>) {
-    let moved = wide.len() as u32 - 1;
-    for child in subtree.iter_mut().flat_map(|node| &mut node.children).filter(|child| **child & LEAF == 0) {
-        *child += moved;
+/// A subtree, its root first.
+struct Graft {
+    nodes: Vec<WideNode>,
+    /// The place for its root in the top.
+    place: usize,
+    /// Nodes of the top that come before all the others of its nodes.
+    before: usize,
+}
+
+/// The top with its subtrees, each behind those nodes of the top that were there before it.
+fn joined(mut top: Vec<WideNode>, subtrees: &[Graft]) -> Vec<WideNode> {
+    // How many nodes the subtrees before each have behind their roots; and where its own begin.
+    let (mut moved, mut begins) = (vec![0], Vec::with_capacity(subtrees.len()));
+    let mut sum = 0;
+    for subtree in subtrees {
+        begins.push(subtree.before + sum);
+        sum += subtree.nodes.len() - 1;
+        moved.push(sum);
     }
-    wide[place] = subtree[0];
-    wide.extend_from_slice(&subtree[1..]);
+    let place_of_top = |i: usize| i + moved[subtrees.partition_point(|subtree| subtree.before <= i)];
+    top.iter_mut().for_each(|node| node.renumber(place_of_top));
+    let node_of = |subtree: usize, i: usize| {
+        let mut node = subtrees[subtree].nodes[i];
+        node.renumber(|child| begins[subtree] + child - 1);
+        node
+    };
+    for (number, subtree) in subtrees.iter().enumerate() {
+        top[subtree.place] = node_of(number, 0);
+    }
+    parallel::map_numbers(top.len() + sum, |i| {
+        let Some(last) = begins.partition_point(|begin| *begin <= i).checked_sub(1) else { return top[i] };
+        let (Graft { nodes, before, .. }, offset) = (&subtrees[last], i - begins[last] + 1);
+        if offset < nodes.len() { node_of(last, offset) } else { top[before + offset - nodes.len()] }
+    })
 }
 
 /// A binary tree on its way.
@@ -45,20 +73,15 @@ struct Collapse<'a, F> {
 }
 
 impl<F: Fn(u32, &mut Vec<u32>)> Collapse<'_, F> {
-    /// The wide nodes of a subtree, its root first, down to so many levels; what is below, `deeper` is told by its root and
-    /// the place for it, in the order in which it would have been laid out.
-    fn lay(
-        &self,
-        root: u32,
-        levels: u32,
-        mut deeper: impl FnMut(u32, usize, &mut Vec<WideNode>),
-    ) -> Vec<WideNode> {
+    /// The wide nodes of a subtree, its root first, down to so many levels. `deeper` is told of what is below: the root, its
+    /// place, and how many nodes come before the others, in the order in which they would have been laid out.
+    fn lay(&self, root: u32, levels: u32, mut deeper: impl FnMut(u32, usize, usize)) -> Vec<WideNode> {
         let mut wide = vec![WideNode::EMPTY];
         let mut pending = vec![(root, 0, levels)];
         let (mut treelet, mut words) = (Treelet::default(), Vec::new());
         while let Some((root, place, levels)) = pending.pop() {
             if levels == 0 {
-                deeper(root, place, &mut wide);
+                deeper(root, place, wide.len());
                 continue;
             }
             treelet.clear();

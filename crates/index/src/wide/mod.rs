@@ -68,6 +68,13 @@ impl WideNode {
         self.children[lane] = child;
     }
 
+    /// Gives the nodes among the children other numbers.
+    fn renumber(&mut self, number: impl Fn(usize) -> usize) {
+        for child in self.children.iter_mut().filter(|child| **child & LEAF == 0) {
+            *child = number(*child as usize) as u32;
+        }
+    }
+
     /// The children that there are, with their boxes.
     pub(crate) fn children(&self) -> impl Iterator<Item = (u32, Aabb)> {
         (0..LANES)

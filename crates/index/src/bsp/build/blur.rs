@@ -25,18 +25,12 @@ pub(crate) struct Blur {
 
 impl Blur {
     pub(crate) fn of(refs: &Pieces) -> Self {
-        let sizes_of =
-            |piece: &Vec<Reference>| piece.iter().map(|r| r.bounds().size().max_element()).collect();
-        let join = |mut some: Vec<f32>, more: Vec<f32>| {
-            some.extend(more);
-            some
-        };
-        let mut sizes = parallel::map_reduce(refs.as_slices(), sizes_of, join).unwrap_or_default();
-        let Some(last) = sizes.len().checked_sub(1) else { return Self::default() };
-        let (_, &mut usual_size, _) = sizes.select_nth_unstable_by(last - last / RARE, f32::total_cmp);
+        if refs.len() == 0 {
+            return Self::default();
+        }
         let around = refs.around().bounds();
         let extent = around.min.abs().max(around.max.abs()).max_element();
-        Self { usual_size, clipping: clipped_corner(extent) }
+        Self { usual_size: usual_size(refs), clipping: clipped_corner(extent) }
     }
 
     /// How far outside its cell, in lengths, the walk must look for a primitive.
@@ -54,6 +48,38 @@ impl Blur {
     pub(crate) fn grown(self, bounds: Aabb) -> Aabb {
         grow(bounds, self.margin(bounds))
     }
+}
+
+/// The size that one in [`RARE`] references reaches.
+fn usual_size(refs: &Pieces) -> f32 {
+    let rank = (refs.len() - 1) / RARE;
+    // A sample tells which sizes need not be sorted.
+    let mut sample = sizes(refs, RARE, 0.0);
+    let limit = largest(&mut sample, 2 * rank / RARE);
+    let mut candidates = sizes(refs, 1, limit);
+    if candidates.len() <= rank {
+        candidates = sizes(refs, 1, 0.0);
+    }
+    largest(&mut candidates, rank)
+}
+
+/// The sizes from `least` on, of one reference in so many.
+fn sizes(refs: &Pieces, step: usize, least: f32) -> Vec<f32> {
+    let some = |piece: &Vec<Reference>| {
+        let sizes = piece.iter().step_by(step).map(|r| r.bounds().size().max_element());
+        sizes.filter(|size| *size >= least).collect()
+    };
+    let join = |mut some: Vec<f32>, more: Vec<f32>| {
+        some.extend(more);
+        some
+    };
+    parallel::map_reduce(refs.as_slices(), some, join).unwrap_or_default()
+}
+
+/// The size that so many exceed.
+fn largest(sizes: &mut [f32], rank: usize) -> f32 {
+    let rank = rank.min(sizes.len() - 1);
+    *sizes.select_nth_unstable_by(rank, |a, b| b.total_cmp(a)).1
 }
 
 /// The box grown by so much on all sides, and no less than without rounding; as it is for 0.

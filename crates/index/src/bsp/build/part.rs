@@ -82,6 +82,10 @@ impl Part {
             tasks.push(Task { node: left, start, cell: below });
             tasks.push(Task { node: left + 1, start: kept, cell: above });
         }
+        // All parts wait for the last.
+        part.nodes.shrink_to_fit();
+        part.contents.shrink_to_fit();
+        part.refs.shrink_to_fit();
         part
     }
 }
