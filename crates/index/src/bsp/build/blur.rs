@@ -93,3 +93,33 @@ pub(crate) fn grow(bounds: Aabb, margin: f32) -> Aabb {
         max: Vec3::new(high.x.next_up(), high.y.next_up(), high.z.next_up()),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{RARE, usual_size};
+    use crate::bsp::build::gather;
+    use glam::Vec3;
+    use heliostat_geometry::Aabb;
+
+    #[test]
+    fn usual_size_is_that_of_sorted_sizes() {
+        let n = 5000_usize;
+        // The last two mislead the sample, which looks at one in so many.
+        let sizes: [&dyn Fn(usize) -> f32; 4] = [
+            &|_| 2.0,
+            &|i| (i * 7919 % n) as f32,
+            &|i| if i % RARE == 0 { 1e6 + i as f32 } else { i as f32 },
+            &|i| if i % RARE == 0 { 0.0 } else { i as f32 },
+        ];
+        for size in sizes {
+            for n in [1, 2, RARE, RARE + 1, n] {
+                let boxes: Vec<Aabb> =
+                    (0..n).map(|i| Aabb { min: Vec3::ZERO, max: Vec3::splat(size(i)) }).collect();
+                let mut sorted: Vec<f32> = (0..n).map(size).collect();
+                sorted.sort_by(f32::total_cmp);
+                let expected = sorted[n - 1 - (n - 1) / RARE];
+                assert_eq!(usual_size(&gather(&boxes).unwrap().0), expected, "{n}");
+            }
+        }
+    }
+}

@@ -149,7 +149,7 @@ impl<P: Primitives + ?Sized> Cutter<'_, P> {
     }
 
     /// Keeps what lies below a plane at the beginning of `refs` and puts what lies above it into `spill`, which is as long;
-    /// answers how many either are.
+    /// answers how many there are of either.
     pub(super) fn cut(&self, refs: &mut [Reference], spill: &mut [Reference], plane: Plane) -> [usize; 2] {
         let (mut kept, mut spilled) = (0, 0);
         for i in 0..refs.len() {

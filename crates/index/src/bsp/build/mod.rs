@@ -1,8 +1,8 @@
 //! The builder: from primitives to nodes.
 //!
-//! Large cells are cut one after the other, their two sides in parallel; each side has references of its own. Once a cell is
-//! small, all of its subtree is made by one thread in one arena ([`part`]). What comes out depends on neither the number of
-//! threads nor their timing: a cell knows all that its cuts depend on.
+//! The references of a large cell lie in pieces, which threads cut one by one ([`pieces`]); then its two sides are cut in
+//! parallel. Once a cell is small, all of its subtree is made by one thread in one arena ([`part`]). What comes out depends
+//! on neither the number of threads nor their timing: a cell knows all that its cuts depend on.
 
 mod blur;
 mod cell;

@@ -124,6 +124,7 @@ impl<const N: usize> Bins<N> {
                 let (left, right) = (before.count, after[border].count);
                 let (on_left, on_right) = (left as usize, right as usize);
                 let separates = on_left < count || on_right < count;
+                // The plane will cut no more than that: what it cuts begins below the border and ends above.
                 if !(separates && on_left + on_right <= count + budget) {
                     continue;
                 }
