@@ -17,6 +17,9 @@ struct Polygon {
 }
 
 impl Polygon {
+    const EMPTY: Self = Self { corners: [DVec3::ZERO; MAX_CORNERS], len: 0 };
+
+    #[inline(always)]
     fn push(&mut self, p: DVec3) {
         // Rounding can in principle make one corner more than a convex polygon has: the last one then gives way.
         let slot = self.len.min(MAX_CORNERS - 1);
@@ -24,23 +27,49 @@ impl Polygon {
         self.len = slot + 1;
     }
 
-    /// Keeps the part where `side * (p[axis] - plane) >= 0`.
-    fn cut(&self, axis: usize, plane: f64, side: f64) -> Self {
-        let mut kept = Self { corners: [DVec3::ZERO; MAX_CORNERS], len: 0 };
+    /// Puts the part where `side * (p[AXIS] - plane) >= 0` into `kept`.
+    fn cut<const AXIS: usize>(&self, plane: f64, side: f64, kept: &mut Self) {
+        kept.len = 0;
         let corners = &self.corners[..self.len];
-        for (k, &p) in corners.iter().enumerate() {
-            let q = corners[(k + 1) % corners.len()];
-            let (dp, dq) = (side * (p[axis] - plane), side * (q[axis] - plane));
+        let Some(&first) = corners.first() else { return };
+        let beyond = |p: DVec3| side * (p[AXIS] - plane);
+        let (mut p, mut dp) = (first, beyond(first));
+        for k in 1..=corners.len() {
+            let q = corners.get(k).copied().unwrap_or(first);
+            let dq = beyond(q);
             if dp >= 0.0 {
                 kept.push(p);
             }
             if (dp > 0.0 && dq < 0.0) || (dp < 0.0 && dq > 0.0) {
                 let mut crossing = p + (q - p) * (dp / (dp - dq));
-                crossing[axis] = plane;
+                crossing[AXIS] = plane;
                 kept.push(crossing);
             }
+            (p, dp) = (q, dq);
         }
-        kept
+    }
+}
+
+/// A polygon, and room for the next: what is copied to and fro costs as much as the cuts.
+struct Clipper<'a> {
+    polygon: &'a mut Polygon,
+    spare: &'a mut Polygon,
+    /// The box around it at first.
+    around: Aabb,
+}
+
+impl Clipper<'_> {
+    /// Keeps the part between both sides of the cell along an axis.
+    #[inline(always)]
+    fn clip<const AXIS: usize>(&mut self, cell: Aabb) {
+        if self.around.min[AXIS] < cell.min[AXIS] {
+            self.polygon.cut::<AXIS>(f64::from(cell.min[AXIS]), 1.0, self.spare);
+            std::mem::swap(&mut self.polygon, &mut self.spare);
+        }
+        if self.around.max[AXIS] > cell.max[AXIS] {
+            self.polygon.cut::<AXIS>(f64::from(cell.max[AXIS]), -1.0, self.spare);
+            std::mem::swap(&mut self.polygon, &mut self.spare);
+        }
     }
 }
 
@@ -53,35 +82,28 @@ pub(crate) fn clipped_triangle_bounds(corners: [Vec3; 3], cell: Aabb) -> Aabb {
         return overlap;
     }
 
-    let mut polygon = Polygon { corners: [DVec3::ZERO; MAX_CORNERS], len: 3 };
-    polygon.corners[..3].copy_from_slice(&corners.map(Vec3::as_dvec3));
-    for axis in 0..3 {
-        if around.min[axis] < cell.min[axis] {
-            polygon = polygon.cut(axis, f64::from(cell.min[axis]), 1.0);
-        }
-        if around.max[axis] > cell.max[axis] {
-            polygon = polygon.cut(axis, f64::from(cell.max[axis]), -1.0);
-        }
-    }
+    let (mut triangle, mut spare) = (Polygon::EMPTY, Polygon::EMPTY);
+    corners.iter().for_each(|corner| triangle.push(corner.as_dvec3()));
+    let mut clipper = Clipper { polygon: &mut triangle, spare: &mut spare, around };
+    clipper.clip::<0>(cell);
+    clipper.clip::<1>(cell);
+    clipper.clip::<2>(cell);
 
-    let mut bounds = Aabb::EMPTY;
-    for &p in &polygon.corners[..polygon.len] {
-        bounds = bounds.union(around_rounded(p));
-    }
-    bounds.intersect(overlap)
+    let corners = &clipper.polygon.corners[..clipper.polygon.len];
+    let low = corners.iter().fold(DVec3::INFINITY, |low, &p| low.min(p));
+    let high = corners.iter().fold(DVec3::NEG_INFINITY, |high, &p| high.max(p));
+    Aabb { min: round_down(low), max: round_up(high) }.intersect(overlap)
 }
 
-/// The smallest box of `f32` corners around a point in `f64`.
-fn around_rounded(p: DVec3) -> Aabb {
+/// The largest `f32` corner not above.
+fn round_down(p: DVec3) -> Vec3 {
     let nearest = p.as_vec3();
-    let (mut min, mut max) = (nearest, nearest);
-    for axis in 0..3 {
-        let rounded = f64::from(nearest[axis]);
-        if rounded > p[axis] {
-            min[axis] = nearest[axis].next_down();
-        } else if rounded < p[axis] {
-            max[axis] = nearest[axis].next_up();
-        }
-    }
-    Aabb { min, max }
+    let one =
+        |rounded: f32, exact: f64| if f64::from(rounded) > exact { rounded.next_down() } else { rounded };
+    Vec3::new(one(nearest.x, p.x), one(nearest.y, p.y), one(nearest.z, p.z))
+}
+
+/// The smallest `f32` corner not below.
+fn round_up(p: DVec3) -> Vec3 {
+    -round_down(-p)
 }

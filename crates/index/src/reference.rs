@@ -44,6 +44,7 @@ impl ReferenceBvh {
     /// When a primitive has an empty or NaN box, or there are more than ids can name.
     pub fn build<P: Primitives + ?Sized>(primitives: &P) -> Result<Self, BuildError> {
         let (refs, unbounded) = gather(primitives)?;
+        let refs = refs.into_vec();
         let around = refs.iter().fold(Aabb::EMPTY, |around, r| around.union(r.bounds()));
         let extent = if refs.is_empty() { 0.0 } else { around.min.abs().max(around.max.abs()).max_element() };
         let margin = Vec3::splat(cell_padding(12.0 * extent, extent));

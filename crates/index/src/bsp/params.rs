@@ -53,9 +53,9 @@ impl SahCosts {
     /// Measured on meshes: larger costs of a test make more references, and rays no faster.
     pub const DEFAULT: Self = Self { traversal: 1.0, intersection: 1.5 };
 
-    /// Costs of leaves whose primitives are tested in groups of so many.
+    /// Costs of leaves whose primitives are tested in groups of so many: a power of two.
     pub(crate) fn of_group(self, group: usize) -> LeafCosts {
-        LeafCosts { traversal: self.traversal, intersection: self.intersection, group }
+        LeafCosts { traversal: self.traversal, intersection: self.intersection, group_bits: group.ilog2() }
     }
 }
 
@@ -64,16 +64,17 @@ impl SahCosts {
 pub(crate) struct LeafCosts {
     pub(crate) traversal: f64,
     intersection: f64,
-    group: usize,
+    group_bits: u32,
 }
 
 impl LeafCosts {
     /// The work in a leaf.
     #[inline(always)]
-    pub(crate) fn leaf(&self, count: usize) -> f64 {
+    pub(crate) fn leaf(&self, count: u32) -> f64 {
         // A full group is a little more likely to hold a hit than one that is not.
         const FILLED: f64 = 0.02;
-        self.intersection * (count.div_ceil(self.group) as f64 + FILLED * count as f64)
+        let groups = (u64::from(count) + (1 << self.group_bits) - 1) >> self.group_bits;
+        self.intersection * (groups as i64 as f64 + FILLED * f64::from(count))
     }
 }
 

@@ -1,52 +1,137 @@
 //! From binary nodes to wide ones.
 
+use super::plans::Plans;
 use super::{LEAF, WideNode};
 use crate::bsp::node::{Kind, Node};
+use crate::parallel;
 use crate::simd::LANES;
 use heliostat_geometry::Aabb;
 
-/// The lower end of a treelet, or a node inside it.
-#[derive(Clone, Copy)]
-struct Slot {
-    node: u32,
-    bounds: Aabb,
-}
+/// Subtrees so many wide nodes below the root are made in parallel.
+const TOP_LEVELS: u32 = 3;
 
 /// Makes wide nodes of a binary tree. `bounds` has the box of the content of each node; `leaf` writes what the child of a
 /// leaf says (without [`LEAF`]) from the index of the node: in several words, where one cannot say it.
 pub(crate) fn collapse(
     nodes: &[Node],
     bounds: &[Aabb],
-    mut leaf: impl FnMut(u32, &mut Vec<u32>),
+    leaf: impl Fn(u32, &mut Vec<u32>) + Sync,
 ) -> Vec<WideNode> {
-    let plans = Plans::new(nodes, bounds);
-    let mut wide = vec![WideNode::EMPTY];
-    // Binary nodes with the places of their wide nodes.
-    let mut pending = vec![(0_u32, 0_usize)];
-    let mut words = Vec::new();
-    while let Some((root, place)) = pending.pop() {
-        let treelet = Treelet::of(nodes, bounds, &plans, root);
-        let mut node = WideNode::EMPTY;
-        for (lane, &Slot { node: end, bounds }) in treelet.ends.iter().enumerate() {
-            let child = match nodes[end as usize].kind() {
-                Kind::Leaf { .. } => {
-                    words.clear();
-                    leaf(end, &mut words);
-                    words.iter_mut().for_each(|word| *word |= LEAF);
-                    gather(&mut wide, &mut words, bounds)
-                }
-                Kind::Inner { .. } => {
-                    pending.push((end, wide.len()));
-                    wide.push(WideNode::EMPTY);
-                    wide.len() as u32 - 1
-                }
-            };
-            node.set(lane, bounds, child);
-        }
-        node.orders = std::array::from_fn(|octant| treelet.order(nodes, root, octant));
-        wide[place] = node;
+    let tree = Collapse { nodes, bounds, plans: Plans::new(nodes, bounds), leaf };
+    let mut grafts = Vec::new();
+    let top = tree.lay(0, TOP_LEVELS, |root, place, before| grafts.push((root, place, before)));
+    let subtrees = parallel::map_each(grafts, |(root, place, before)| Graft {
+        nodes: tree.lay(root, u32::MAX, |_, _, _| {}),
+        place,
+        before,
+    });
+    joined(top, &subtrees)
+}
+
+/// A subtree, its root first.
+struct Graft {
+    nodes: Vec<WideNode>,
+    /// The place for its root in the top.
+    place: usize,
+    /// Nodes of the top that come before all the others of its nodes.
+    before: usize,
+}
+
+/// The top with its subtrees, each behind those nodes of the top that were there before it.
+fn joined(mut top: Vec<WideNode>, subtrees: &[Graft]) -> Vec<WideNode> {
+    // How many nodes the subtrees before each have behind their roots; and where its own begin.
+    let (mut moved, mut begins) = (vec![0], Vec::with_capacity(subtrees.len()));
+    let mut sum = 0;
+    for subtree in subtrees {
+        begins.push(subtree.before + sum);
+        sum += subtree.nodes.len() - 1;
+        moved.push(sum);
     }
-    wide
+    let place_of_top = |i: usize| i + moved[subtrees.partition_point(|subtree| subtree.before <= i)];
+    top.iter_mut().for_each(|node| node.renumber(place_of_top));
+    let node_of = |subtree: usize, i: usize| {
+        let mut node = subtrees[subtree].nodes[i];
+        node.renumber(|child| begins[subtree] + child - 1);
+        node
+    };
+    for (number, subtree) in subtrees.iter().enumerate() {
+        top[subtree.place] = node_of(number, 0);
+    }
+    parallel::map_numbers(top.len() + sum, |i| {
+        let Some(last) = begins.partition_point(|begin| *begin <= i).checked_sub(1) else { return top[i] };
+        let (Graft { nodes, before, .. }, offset) = (&subtrees[last], i - begins[last] + 1);
+        if offset < nodes.len() { node_of(last, offset) } else { top[before + offset - nodes.len()] }
+    })
+}
+
+/// A binary tree on its way.
+struct Collapse<'a, F> {
+    nodes: &'a [Node],
+    bounds: &'a [Aabb],
+    plans: Plans,
+    leaf: F,
+}
+
+impl<F: Fn(u32, &mut Vec<u32>)> Collapse<'_, F> {
+    /// The wide nodes of a subtree, its root first, down to so many levels. `deeper` is told of what is below: the root, its
+    /// place, and how many nodes come before the others, in the order in which they would have been laid out.
+    fn lay(&self, root: u32, levels: u32, mut deeper: impl FnMut(u32, usize, usize)) -> Vec<WideNode> {
+        let mut wide = vec![WideNode::EMPTY];
+        let mut pending = vec![(root, 0, levels)];
+        let (mut treelet, mut words) = (Treelet::default(), Vec::new());
+        while let Some((root, place, levels)) = pending.pop() {
+            if levels == 0 {
+                deeper(root, place, wide.len());
+                continue;
+            }
+            treelet.clear();
+            self.open(&mut treelet, root, self.plans.left_below(root), LANES);
+            let mut node = WideNode::EMPTY;
+            for (lane, &end) in treelet.ends.iter().enumerate() {
+                let bounds = self.bounds[end as usize];
+                let child = match self.nodes[end as usize].kind() {
+                    Kind::Leaf { .. } => {
+                        words.clear();
+                        (self.leaf)(end, &mut words);
+                        words.iter_mut().for_each(|word| *word |= LEAF);
+                        gather(&mut wide, &mut words, bounds)
+                    }
+                    Kind::Inner { .. } => {
+                        pending.push((end, wide.len(), levels - 1));
+                        wide.push(WideNode::EMPTY);
+                        wide.len() as u32 - 1
+                    }
+                };
+                node.set(lane, bounds, child);
+            }
+            node.orders = std::array::from_fn(|octant| treelet.order(octant));
+            wide[place] = node;
+        }
+        wide
+    }
+
+    /// Adds a node below so many roots to a treelet: `left_roots` of them stand for its left side, or it is an end for 0.
+    fn open(&self, treelet: &mut Treelet, node: u32, left_roots: usize, roots: usize) {
+        let is_empty = |node: u32| self.bounds[node as usize].is_empty();
+        let add = |treelet: &mut Treelet, child: u32, roots: usize| {
+            self.open(treelet, child, self.plans.left(child, roots), roots);
+        };
+        match self.nodes[node as usize].kind() {
+            _ if is_empty(node) => {}
+            Kind::Inner { left, .. } if is_empty(left) || is_empty(left + 1) => {
+                add(treelet, left, roots);
+                add(treelet, left + 1, roots);
+            }
+            Kind::Inner { axis, left, .. } if left_roots > 0 => {
+                let first = treelet.ends.len();
+                add(treelet, left, left_roots);
+                let middle = treelet.ends.len();
+                add(treelet, left + 1, roots - left_roots);
+                treelet.cuts.push(Cut { axis, first, middle, end: treelet.ends.len() });
+            }
+            _ => treelet.ends.push(node),
+        }
+    }
 }
 
 /// One child that stands for all of `children`, which lie in the same box.
@@ -63,122 +148,39 @@ fn gather(wide: &mut Vec<WideNode>, children: &mut Vec<u32>, bounds: Aabb) -> u3
     children[0]
 }
 
-/// For each binary node, how it is best stood for by wide nodes.
-///
-/// # Source
-/// Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", HPG 2017, section 3.1
-/// (dynamic programming over the number of roots).
-struct Plans(Vec<Plan>);
-
-/// The least expected work for a subtree below `i + 1` roots.
-#[derive(Clone, Copy)]
-struct Plan {
-    work: [f32; LANES],
-    /// Of these roots, how many fall to the left side; 0 where the node itself is the only root.
-    left: [u8; LANES],
-    /// The same for the children of the wide node that stands for it.
-    left_below: u8,
-}
-
-impl Plans {
-    fn new(nodes: &[Node], bounds: &[Aabb]) -> Self {
-        let mut plans = vec![Plan { work: [0.0; LANES], left: [0; LANES], left_below: 0 }; nodes.len()];
-        // Children lie behind their parents.
-        for (i, node) in nodes.iter().enumerate().rev() {
-            if let Kind::Inner { left, .. } = node.kind() {
-                let children = [left as usize, left as usize + 1].map(|child| {
-                    let is_empty = bounds[child].is_empty();
-                    (!is_empty).then_some(plans[child])
-                });
-                plans[i] = Plan::of_inner(bounds[i].surface_area() as f32, children);
-            }
-        }
-        Self(plans)
-    }
-}
-
-impl Plan {
-    fn of_inner(area: f32, children: [Option<Self>; 2]) -> Self {
-        let [left, right] = match children {
-            [Some(left), Some(right)] => [left, right],
-            // An empty side needs no root: the node is what the other side is.
-            [Some(only), None] | [None, Some(only)] => return only,
-            [None, None] => return Self { work: [0.0; LANES], left: [0; LANES], left_below: 0 },
-        };
-        let split = |roots: usize| {
-            let works = (1..roots).map(|k| (left.work[k - 1] + right.work[roots - k - 1], k as u8));
-            works.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f32::INFINITY, 0))
-        };
-        let (below, left_below) = split(LANES);
-        let mut plan = Self { work: [area + below; LANES], left: [0; LANES], left_below };
-        for roots in 2..=LANES {
-            let (work, left) = split(roots);
-            if work < plan.work[roots - 1] {
-                (plan.work[roots - 1], plan.left[roots - 1]) = (work, left);
-            }
-        }
-        plan
-    }
-}
-
 /// The upper part of a subtree.
+#[derive(Default)]
 struct Treelet {
-    /// Nodes inside it.
-    opened: Vec<u32>,
+    /// The cuts inside it, children before parents.
+    cuts: Vec<Cut>,
     /// Its lower ends that are not empty, at most as many as there are lanes, from left to right.
-    ends: Vec<Slot>,
+    ends: Vec<u32>,
+}
+
+/// A plane, with the ends `first .. middle` below it and `middle .. end` above.
+struct Cut {
+    axis: usize,
+    first: usize,
+    middle: usize,
+    end: usize,
 }
 
 impl Treelet {
-    /// The treelet of the wide node that stands for `root`.
-    fn of(nodes: &[Node], bounds: &[Aabb], plans: &Plans, root: u32) -> Self {
-        let mut treelet = Self { opened: Vec::with_capacity(LANES), ends: Vec::with_capacity(LANES) };
-        let mut pending = Vec::with_capacity(LANES);
-        pending.push((root, LANES));
-        while let Some((node, roots)) = pending.pop() {
-            let at = node as usize;
-            if bounds[at].is_empty() {
-                continue;
-            }
-            let plan = &plans.0[at];
-            let left_roots = if node == root { plan.left_below } else { plan.left[roots - 1] } as usize;
-            match nodes[at].kind() {
-                Kind::Inner { left, .. } => {
-                    let halves = [left, left + 1].map(|child| bounds[child as usize].is_empty());
-                    if halves[0] || halves[1] {
-                        treelet.opened.push(node);
-                        pending.extend([(left + 1, roots), (left, roots)]);
-                    } else if left_roots > 0 {
-                        treelet.opened.push(node);
-                        pending.extend([(left + 1, roots - left_roots), (left, left_roots)]);
-                    } else {
-                        treelet.ends.push(Slot { node, bounds: bounds[at] });
-                    }
-                }
-                Kind::Leaf { .. } => treelet.ends.push(Slot { node, bounds: bounds[at] }),
-            }
-        }
-        treelet
+    fn clear(&mut self) {
+        self.cuts.clear();
+        self.ends.clear();
     }
 
     /// The lanes from the first that a ray of this octant meets to the last, and then those without a child.
-    fn order(&self, nodes: &[Node], root: u32, octant: usize) -> u32 {
-        let (mut order, mut places) = (0, 0);
-        let mut put = |lane: usize| {
-            order |= (lane as u32) << (3 * places);
-            places += 1;
-        };
-        let mut pending = vec![root];
-        while let Some(node) = pending.pop() {
-            match nodes[node as usize].kind() {
-                Kind::Inner { axis, left, .. } if self.opened.contains(&node) => {
-                    let far_is_right = octant >> axis & 1 == 0;
-                    pending.extend(if far_is_right { [left + 1, left] } else { [left, left + 1] });
-                }
-                _ => self.ends.iter().position(|end| end.node == node).into_iter().for_each(&mut put),
-            }
-        }
-        (self.ends.len()..LANES).for_each(put);
-        order
+    fn order(&self, octant: usize) -> u32 {
+        let mask = |lanes: usize| (1 << (3 * lanes)) - 1;
+        let upward = WideNode::EMPTY.orders[0];
+        self.cuts.iter().filter(|cut| octant >> cut.axis & 1 != 0).fold(upward, |order, cut| {
+            let (below, above) = (cut.middle - cut.first, cut.end - cut.middle);
+            let lanes = order >> (3 * cut.first);
+            // What lies above the plane is met first.
+            let turned = (lanes >> (3 * below)) & mask(above) | (lanes & mask(below)) << (3 * above);
+            order & !(mask(below + above) << (3 * cut.first)) | turned << (3 * cut.first)
+        })
     }
 }

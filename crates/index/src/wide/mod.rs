@@ -11,6 +11,7 @@
 
 pub(crate) mod batch;
 pub(crate) mod collapse;
+mod plans;
 pub(crate) mod ray;
 mod validate;
 pub(crate) mod walk;
@@ -61,6 +62,13 @@ impl WideNode {
             self.planes[axis][1].0[lane] = bounds.max[axis];
         }
         self.children[lane] = child;
+    }
+
+    /// Gives the nodes among the children other numbers.
+    fn renumber(&mut self, number: impl Fn(usize) -> usize) {
+        for child in self.children.iter_mut().filter(|child| **child & LEAF == 0) {
+            *child = number(*child as usize) as u32;
+        }
     }
 
     /// The children that there are, with their boxes.

@@ -4,7 +4,9 @@
 //! as that distance is the way of the ray, the walk allows for it; what is left is the size of the primitive.
 //! The walk allows for *usual* sizes everywhere; primitives beyond are grown instead.
 
+use super::pieces::Pieces;
 use super::reference::Reference;
+use crate::parallel;
 use glam::Vec3;
 use heliostat_geometry::Aabb;
 use heliostat_geometry::error_bound::{cell_padding, clipped_corner};
@@ -22,13 +24,13 @@ pub(crate) struct Blur {
 }
 
 impl Blur {
-    pub(crate) fn of(refs: &[Reference]) -> Self {
-        let mut sizes: Vec<f32> = refs.iter().map(|r| r.bounds().size().max_element()).collect();
-        let around = refs.iter().fold(Aabb::EMPTY, |around, r| around.union(r.bounds()));
-        let Some(last) = sizes.len().checked_sub(1) else { return Self::default() };
-        let (_, &mut usual_size, _) = sizes.select_nth_unstable_by(last - last / RARE, f32::total_cmp);
+    pub(crate) fn of(refs: &Pieces) -> Self {
+        if refs.len() == 0 {
+            return Self::default();
+        }
+        let around = refs.around().bounds();
         let extent = around.min.abs().max(around.max.abs()).max_element();
-        Self { usual_size, clipping: clipped_corner(extent) }
+        Self { usual_size: usual_size(refs), clipping: clipped_corner(extent) }
     }
 
     /// How far outside its cell, in lengths, the walk must look for a primitive.
@@ -48,6 +50,38 @@ impl Blur {
     }
 }
 
+/// The size that one in [`RARE`] references reaches.
+fn usual_size(refs: &Pieces) -> f32 {
+    let rank = (refs.len() - 1) / RARE;
+    // A sample tells which sizes need not be sorted.
+    let mut sample = sizes(refs, RARE, 0.0);
+    let limit = largest(&mut sample, 2 * rank / RARE);
+    let mut candidates = sizes(refs, 1, limit);
+    if candidates.len() <= rank {
+        candidates = sizes(refs, 1, 0.0);
+    }
+    largest(&mut candidates, rank)
+}
+
+/// The sizes from `least` on, of one reference in so many.
+fn sizes(refs: &Pieces, step: usize, least: f32) -> Vec<f32> {
+    let some = |piece: &Vec<Reference>| {
+        let sizes = piece.iter().step_by(step).map(|r| r.bounds().size().max_element());
+        sizes.filter(|size| *size >= least).collect()
+    };
+    let join = |mut some: Vec<f32>, more: Vec<f32>| {
+        some.extend(more);
+        some
+    };
+    parallel::map_reduce(refs.as_slices(), some, join).unwrap_or_default()
+}
+
+/// The size that so many exceed.
+fn largest(sizes: &mut [f32], rank: usize) -> f32 {
+    let rank = rank.min(sizes.len() - 1);
+    *sizes.select_nth_unstable_by(rank, |a, b| b.total_cmp(a)).1
+}
+
 /// The box grown by so much on all sides, and no less than without rounding; as it is for 0.
 pub(crate) fn grow(bounds: Aabb, margin: f32) -> Aabb {
     if margin == 0.0 {
@@ -57,5 +91,35 @@ pub(crate) fn grow(bounds: Aabb, margin: f32) -> Aabb {
     Aabb {
         min: Vec3::new(low.x.next_down(), low.y.next_down(), low.z.next_down()),
         max: Vec3::new(high.x.next_up(), high.y.next_up(), high.z.next_up()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{RARE, usual_size};
+    use crate::bsp::build::gather;
+    use glam::Vec3;
+    use heliostat_geometry::Aabb;
+
+    #[test]
+    fn usual_size_is_that_of_sorted_sizes() {
+        let n = 5000_usize;
+        // The last two mislead the sample, which looks at one in so many.
+        let sizes: [&dyn Fn(usize) -> f32; 4] = [
+            &|_| 2.0,
+            &|i| (i * 7919 % n) as f32,
+            &|i| if i % RARE == 0 { 1e6 + i as f32 } else { i as f32 },
+            &|i| if i % RARE == 0 { 0.0 } else { i as f32 },
+        ];
+        for size in sizes {
+            for n in [1, 2, RARE, RARE + 1, n] {
+                let boxes: Vec<Aabb> =
+                    (0..n).map(|i| Aabb { min: Vec3::ZERO, max: Vec3::splat(size(i)) }).collect();
+                let mut sorted: Vec<f32> = (0..n).map(size).collect();
+                sorted.sort_by(f32::total_cmp);
+                let expected = sorted[n - 1 - (n - 1) / RARE];
+                assert_eq!(usual_size(&gather(&boxes).unwrap().0), expected, "{n}");
+            }
+        }
     }
 }

@@ -2,8 +2,8 @@
 
 use super::blur::{Blur, grow};
 use super::reference::{Around, Reference};
-use super::sah::{Bins, MAX_BINS};
-use crate::bsp::params::{BuildParams, SahCosts, SplitRule};
+use super::sah::{Bins, Choice};
+use crate::bsp::params::{BuildParams, LeafCosts, SahCosts, SplitRule};
 use crate::bsp::split::{Plane, Side};
 use crate::parallel;
 use crate::primitives::Primitives;
@@ -15,8 +15,8 @@ const MAX_WASTED: u32 = 3;
 /// A cell above this size may be cut at a loss, hoping that its parts are cut at a gain.
 const HOPE_ABOVE: usize = 16;
 
-/// References that one thread looks at before another could take its turn.
-const CHUNK: usize = 16_384;
+/// From so many references on, more bins are worth their work.
+const MANY: usize = 64;
 
 /// All that the cuts below a cell depend on, but for its references.
 #[derive(Clone, Copy, Debug)]
@@ -72,9 +72,12 @@ pub(super) struct Cutter<'a, P: ?Sized> {
 }
 
 impl<P: Primitives + ?Sized> Cutter<'_, P> {
-    /// The plane that cuts the cell, or `None` for a leaf.
-    pub(super) fn decide(&self, cell: &Cell, refs: &[Reference]) -> Option<Decision> {
-        let splittable = refs.len() > self.params.leaf_limit as usize
+    /// The plane that cuts the cell, or `None` for a leaf. The references, so many, come in any pieces.
+    pub(super) fn decide<S>(&self, cell: &Cell, count: usize, refs: &[S]) -> Option<Decision>
+    where
+        S: AsRef<[Reference]> + Sync,
+    {
+        let splittable = count > self.params.leaf_limit as usize
             && cell.depth < self.params.max_depth
             // In a thinner one, the walk could not tell the parts from each other.
             && cell.bounds.size().max_element() > 2.0 * self.blur.slack();
@@ -82,79 +85,95 @@ impl<P: Primitives + ?Sized> Cutter<'_, P> {
             return None;
         }
         let decision = match self.params.split {
-            SplitRule::Sah(costs) if cell.content.half_area() > 0.0 => self.weigh(cell, refs, &costs)?,
-            // Content without area (all on one line) has nothing for the heuristic to weigh.
-            SplitRule::Midpoint | SplitRule::Sah(_) => {
-                let plane = Plane::midpoint(cell.bounds)?;
-                let (left, right) = plane.count(refs);
-                let separates = left < refs.len() || right < refs.len();
-                Decision { plane, wasted: if separates { 0 } else { cell.wasted + 1 } }
+            SplitRule::Sah(costs) if cell.content.half_area() > 0.0 => {
+                self.weigh(cell, count, refs, &costs)?
             }
+            // Content without area (all on one line) has nothing for the heuristic to weigh.
+            SplitRule::Midpoint | SplitRule::Sah(_) => Self::halve(cell, count, refs)?,
         };
-        (decision.wasted <= MAX_WASTED && self.affordable(cell, refs, decision.plane)).then_some(decision)
+        (decision.wasted <= MAX_WASTED).then_some(decision)
+    }
+
+    /// The plane in the middle, when the cell may duplicate as many references as it does.
+    fn halve<S: AsRef<[Reference]> + Sync>(cell: &Cell, count: usize, refs: &[S]) -> Option<Decision> {
+        let plane = Plane::midpoint(cell.bounds)?;
+        let counts =
+            parallel::map_reduce(refs, |some| plane.count(some.as_ref()), |a, b| (a.0 + b.0, a.1 + b.1));
+        let (left, right) = counts.unwrap_or_default();
+        let separates = left < count || right < count;
+        let is_affordable = left + right <= count + cell.budget;
+        is_affordable.then_some(Decision { plane, wasted: if separates { 0 } else { cell.wasted + 1 } })
     }
 
     /// The plane of the surface area heuristic.
-    fn weigh(&self, cell: &Cell, refs: &[Reference], costs: &SahCosts) -> Option<Decision> {
+    fn weigh<S>(&self, cell: &Cell, count: usize, refs: &[S], costs: &SahCosts) -> Option<Decision>
+    where
+        S: AsRef<[Reference]> + Sync,
+    {
         let costs = costs.of_group(self.group);
-        let bins = self.bins(cell, refs);
-        let choice = bins.choose(refs.len(), cell.content, cell.bounds, &costs, cell.budget)?;
-        let gains = choice.cost < costs.leaf(refs.len());
-        if !gains && refs.len() <= HOPE_ABOVE {
+        let choice = if count < MANY {
+            Self::choose::<16, S>(cell, count, refs, &costs)
+        } else {
+            Self::choose::<32, S>(cell, count, refs, &costs)
+        }?;
+        let gains = choice.cost < costs.leaf(count as u32);
+        if !gains && count <= HOPE_ABOVE {
             return None;
         }
         Some(Decision { plane: choice.plane, wasted: if gains { 0 } else { cell.wasted + 1 } })
     }
 
-    fn bins(&self, cell: &Cell, refs: &[Reference]) -> Bins {
-        let used = if refs.len() < 2 * MAX_BINS { MAX_BINS / 2 } else { MAX_BINS };
-        let count = |some: &[Reference]| {
-            let mut bins = Bins::new(cell.content, used);
-            bins.add(some);
-            bins
-        };
-        if refs.len() < 2 * CHUNK {
-            return count(refs);
-        }
-        parallel::map_reduce(refs, CHUNK, count, |a, b| a.merge(&b)).unwrap_or_else(|| count(&[]))
-    }
-
-    /// Whether the plane duplicates no more references than the cell may.
-    fn affordable(&self, cell: &Cell, refs: &[Reference], plane: Plane) -> bool {
-        let (left, right) = plane.count(refs);
-        left + right <= refs.len() + cell.budget
-    }
-
-    /// The references on either side of a plane, from many.
-    pub(super) fn cut_large(&self, refs: &[Reference], plane: Plane) -> (Vec<Reference>, Vec<Reference>) {
-        let cut = |some: &[Reference]| {
-            let (mut left, mut right) = (Vec::with_capacity(some.len()), Vec::new());
-            for &reference in some {
-                let (below, above) = self.parts(reference, plane);
-                left.extend(below);
-                right.extend(above);
+    /// The cheapest plane that `N` bins know of.
+    fn choose<const N: usize, S>(cell: &Cell, count: usize, refs: &[S], costs: &LeafCosts) -> Option<Choice>
+    where
+        S: AsRef<[Reference]> + Sync,
+    {
+        let mut bins = Bins::<N>::new(cell.content);
+        match refs {
+            // Bins are large: they stay where they are.
+            [only] => bins.add(only.as_ref()),
+            _ => {
+                let add = |some: &S| {
+                    let mut bins = Box::new(Bins::<N>::new(cell.content));
+                    bins.add(some.as_ref());
+                    bins
+                };
+                let merge = |mut a: Box<Bins<N>>, b: Box<Bins<N>>| {
+                    a.merge(&b);
+                    a
+                };
+                bins.merge(&*parallel::map_reduce(refs, add, merge)?);
             }
-            (left, right)
-        };
-        let join = |(mut left, mut right): (Vec<Reference>, Vec<Reference>), (more_left, more_right)| {
-            left.extend::<Vec<_>>(more_left);
-            right.extend::<Vec<_>>(more_right);
-            (left, right)
-        };
-        parallel::map_reduce(refs, CHUNK, cut, join).unwrap_or_default()
+        }
+        bins.choose(count, cell.content, cell.bounds, costs, cell.budget)
     }
 
-    /// A reference on either side of a plane.
-    #[inline]
-    pub(super) fn parts(&self, reference: Reference, plane: Plane) -> (Option<Reference>, Option<Reference>) {
-        match plane.side(&reference) {
-            Side::Left => (Some(reference), None),
-            Side::Right => (None, Some(reference)),
-            Side::Both => {
+    /// Keeps what lies below a plane at the beginning of `refs` and puts what lies above it into `spill`, which is as long;
+    /// answers how many there are of either.
+    pub(super) fn cut(&self, refs: &mut [Reference], spill: &mut [Reference], plane: Plane) -> [usize; 2] {
+        let (mut kept, mut spilled) = (0, 0);
+        for i in 0..refs.len() {
+            let reference = refs[i];
+            let side = plane.side(&reference);
+            if side == Side::Both {
                 let (left, right) = self.clipped(reference, plane);
-                (left.map(|b| reference.with_bounds(b)), right.map(|b| reference.with_bounds(b)))
+                if let Some(part) = left {
+                    refs[kept] = reference.with_bounds(part);
+                    kept += 1;
+                }
+                if let Some(part) = right {
+                    spill[spilled] = reference.with_bounds(part);
+                    spilled += 1;
+                }
+            } else {
+                // Into both, and one stays: no processor can foresee which.
+                refs[kept] = reference;
+                spill[spilled] = reference;
+                kept += usize::from(side == Side::Left);
+                spilled += usize::from(side == Side::Right);
             }
         }
+        [kept, spilled]
     }
 
     /// The boxes of a reference that a plane cuts.

@@ -1,16 +1,18 @@
 //! The builder: from primitives to nodes.
 //!
-//! Large cells are cut one after the other, their two sides in parallel; each side has references of its own. Once a cell is
-//! small, all of its subtree is made by one thread in one arena ([`part`]). What comes out depends on neither the number of
-//! threads nor their timing: a cell knows all that its cuts depend on.
+//! The references of a large cell lie in pieces, which threads cut one by one ([`pieces`]); then its two sides are cut in
+//! parallel. Once a cell is small, all of its subtree is made by one thread in one arena ([`part`]). What comes out depends
+//! on neither the number of threads nor their timing: a cell knows all that its cuts depend on.
 
 mod blur;
 mod cell;
 mod part;
+mod pieces;
 mod reference;
 mod sah;
 
 pub(crate) use blur::{Blur, grow};
+pub(crate) use pieces::gather;
 pub(crate) use reference::Reference;
 
 use super::BspTree;
@@ -25,6 +27,7 @@ use crate::wide::ray::Room;
 use cell::{Cell, Cutter};
 use heliostat_geometry::Aabb;
 use part::Part;
+use pieces::Pieces;
 use reference::Around;
 use std::time::Instant;
 
@@ -55,13 +58,11 @@ pub(crate) fn build<P: Primitives + ?Sized>(
 ) -> Result<BspTree, BuildError> {
     let begin = Instant::now();
     params.check()?;
-    let (mut refs, unbounded) = gather(primitives)?;
+    let (refs, unbounded) = gather(primitives)?;
     let blur = Blur::of(&refs);
-    for reference in &mut refs {
-        *reference = reference.with_bounds(blur.grown(reference.bounds()));
-    }
-    let content = Around::of(&refs);
-    let bounds = if refs.is_empty() { Aabb::EMPTY } else { content.bounds() };
+    let refs = refs.map(|reference| reference.with_bounds(blur.grown(reference.bounds())));
+    let content = refs.around();
+    let bounds = content.bounds();
 
     let budget = (f64::from(params.max_duplication) - 1.0) * refs.len() as f64;
     let root = Cell { bounds, content, depth: 0, budget: budget as usize + SPARE_REFERENCES, wasted: 0 };
@@ -103,44 +104,22 @@ fn detail(nodes: &[Node], contents: &[Aabb]) -> f32 {
     if sizes.is_empty() { 0.0 } else { *sizes.select_nth_unstable_by(few, f32::total_cmp).1 }
 }
 
-/// Splits the primitives into those with a finite box and the ids of the others.
-pub(crate) fn gather<P: Primitives + ?Sized>(
-    primitives: &P,
-) -> Result<(Vec<Reference>, Vec<u32>), BuildError> {
-    // The highest id is kept free as a mark.
-    let count = u32::try_from(primitives.len())
-        .ok()
-        .filter(|&n| n < u32::MAX)
-        .ok_or(BuildError::TooLarge { what: "primitives" })?;
-    let all =
-        parallel::map_numbers(count, |primitive| Reference::new(primitive, primitives.bounds(primitive)));
-    // A NaN makes a box empty as well.
-    if let Some(empty) = all.iter().find(|r| r.bounds().is_empty()) {
-        return Err(BuildError::Bounds { primitive: empty.primitive(), bounds: empty.bounds() });
-    }
-    let (refs, unbounded): (Vec<_>, Vec<_>) = all.into_iter().partition(|r| r.bounds().is_finite());
-    let unbounded = unbounded.iter().map(Reference::primitive).collect();
-    Ok((refs, unbounded))
-}
-
 /// The subtree of a cell.
-fn branch<P: Primitives + ?Sized>(cutter: &Cutter<'_, P>, cell: Cell, refs: Vec<Reference>) -> Branch {
+fn branch<P: Primitives + ?Sized>(cutter: &Cutter<'_, P>, cell: Cell, refs: Pieces) -> Branch {
     if refs.len() <= LARGE {
-        return Branch::Part(Part::build(cutter, cell, refs));
+        return Branch::Part(Part::build(cutter, cell, refs.into_vec()));
     }
-    match cutter.decide(&cell, &refs) {
-        None => Branch::Part(Part::leaf(&cell, &refs)),
+    match cutter.decide(&cell, refs.len(), refs.as_slices()) {
+        None => Branch::Part(Part::leaf(&cell, &refs.into_vec())),
         Some(decision) => {
-            let content = cell.content;
-            let (left_refs, right_refs) = cutter.cut_large(&refs, decision.plane);
             let before = refs.len();
-            drop(refs);
-            let sides = [Around::of(&left_refs), Around::of(&right_refs)];
+            let sides = refs.cut(|refs, spill| cutter.cut(refs, spill, decision.plane));
+            let [(left_refs, left), (right_refs, right)] = sides;
             let counts = [left_refs.len(), right_refs.len()];
-            let [left, right] = cell.sides(&decision, before, counts, sides);
+            let [left, right] = cell.sides(&decision, before, counts, [left, right]);
             let (left, right) =
                 parallel::join(|| branch(cutter, left, left_refs), || branch(cutter, right, right_refs));
-            Branch::Cut { plane: decision.plane, content, sides: Box::new([left, right]) }
+            Branch::Cut { plane: decision.plane, content: cell.content, sides: Box::new([left, right]) }
         }
     }
 }

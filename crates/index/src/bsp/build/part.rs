@@ -57,7 +57,7 @@ impl Part {
             if !refs.is_empty() {
                 part.contents[node] = cell.content.bounds();
             }
-            let Some(decision) = cutter.decide(&cell, refs) else {
+            let Some(decision) = cutter.decide(&cell, refs.len(), &[refs]) else {
                 part.nodes[node] = Node::leaf(part.refs.len() as u32, refs.len() as u32);
                 part.refs.extend(refs.iter().map(Reference::primitive));
                 arena.truncate(start);
@@ -65,45 +65,27 @@ impl Part {
             };
 
             let before = refs.len();
-            let contents = cut(cutter, &mut arena, start, &mut spill, decision.plane);
-            let kept = arena.len();
-            arena.extend_from_slice(&spill);
+            if spill.len() < before {
+                spill.extend_from_slice(&arena[start + spill.len()..]);
+            }
+            let counts = cutter.cut(&mut arena[start..], &mut spill, decision.plane);
+            let kept = start + counts[0];
+            let above = &spill[..counts[1]];
+            let contents = [Around::of(&arena[start..kept]), Around::of(above)];
+            arena.truncate(kept);
+            arena.extend_from_slice(above);
             let left = part.nodes.len();
             part.nodes.extend([Node::EMPTY; 2]);
             part.contents.extend([Aabb::EMPTY; 2]);
             part.nodes[node] = Node::inner(decision.plane.axis, decision.plane.position, left as u32);
-            let [below, above] = cell.sides(&decision, before, [kept - start, spill.len()], contents);
+            let [below, above] = cell.sides(&decision, before, counts, contents);
             tasks.push(Task { node: left, start, cell: below });
             tasks.push(Task { node: left + 1, start: kept, cell: above });
         }
+        // All parts wait for the last.
+        part.nodes.shrink_to_fit();
+        part.contents.shrink_to_fit();
+        part.refs.shrink_to_fit();
         part
     }
-}
-
-/// Keeps what lies below a plane in the arena from `start` on, and puts what lies above it into `spill`; answers what is
-/// around either.
-fn cut<P: Primitives + ?Sized>(
-    cutter: &Cutter<'_, P>,
-    arena: &mut Vec<Reference>,
-    start: usize,
-    spill: &mut Vec<Reference>,
-    plane: crate::bsp::split::Plane,
-) -> [Around; 2] {
-    let mut around = [Around::NOTHING; 2];
-    let mut kept = start;
-    spill.clear();
-    for i in start..arena.len() {
-        let (below, above) = cutter.parts(arena[i], plane);
-        if let Some(reference) = below {
-            around[0].include(&reference);
-            arena[kept] = reference;
-            kept += 1;
-        }
-        if let Some(reference) = above {
-            around[1].include(&reference);
-            spill.push(reference);
-        }
-    }
-    arena.truncate(kept);
-    around
 }

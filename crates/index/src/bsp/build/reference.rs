@@ -34,12 +34,13 @@ impl Reference {
 
     #[inline(always)]
     pub(crate) fn low(&self, axis: usize) -> f32 {
-        self.low[axis]
+        // By way of the array: as a vector, it would be loaded whole.
+        self.low.as_ref()[axis]
     }
 
     #[inline(always)]
     pub(crate) fn high(&self, axis: usize) -> f32 {
-        self.high[axis]
+        self.high.as_ref()[axis]
     }
 
     /// The corners, with something in the fourth lane that must not be looked at.
@@ -63,11 +64,6 @@ impl Around {
     pub(crate) fn add(&mut self, low: Vec4, high: Vec4) {
         self.low = self.low.min(low);
         self.high = self.high.max(high);
-    }
-
-    #[inline(always)]
-    pub(crate) fn include(&mut self, reference: &Reference) {
-        self.add(reference.low, reference.high);
     }
 
     #[inline(always)]

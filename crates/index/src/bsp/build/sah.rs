@@ -16,9 +16,6 @@ use crate::bsp::split::Plane;
 use glam::Vec4;
 use heliostat_geometry::Aabb;
 
-/// Most bins per axis.
-pub(super) const MAX_BINS: usize = 32;
-
 /// A plane with its expected cost.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Choice {
@@ -48,45 +45,38 @@ impl Bin {
     }
 }
 
-/// Bins along the three axes.
-pub(super) struct Bins {
+/// `N` bins, a power of two, along each of the three axes.
+pub(super) struct Bins<const N: usize> {
     /// References by their lower ends.
-    starts: [[Bin; MAX_BINS]; 3],
+    starts: [[Bin; N]; 3],
     /// References by their upper ends.
-    ends: [[Bin; MAX_BINS]; 3],
-    used: usize,
+    ends: [[Bin; N]; 3],
     /// The lower corner of the content.
     origin: Vec4,
     /// Bins per length.
     scale: Vec4,
 }
 
-impl Bins {
+impl<const N: usize> Bins<N> {
     /// Empty bins over `content`.
-    pub(super) fn new(content: Around, used: usize) -> Self {
-        let scale = (used as f32 * 0.9999) / (content.high - content.low);
+    pub(super) fn new(content: Around) -> Self {
+        let scale = (N as f32 * 0.9999) / (content.high - content.low);
         // An axis without extent has one bin.
         let scale = Vec4::select(scale.is_finite_mask(), scale, Vec4::ZERO);
-        Self {
-            starts: [[Bin::EMPTY; MAX_BINS]; 3],
-            ends: [[Bin::EMPTY; MAX_BINS]; 3],
-            used,
-            origin: content.low,
-            scale,
-        }
+        Self { starts: [[Bin::EMPTY; N]; 3], ends: [[Bin::EMPTY; N]; 3], origin: content.low, scale }
     }
 
     /// Counts references.
     pub(super) fn add(&mut self, refs: &[Reference]) {
         // Added to numbers of bins, this leaves their integer part in the low bits.
         let shift = Vec4::splat((1 << 23) as f32 - 0.5);
-        let last = Vec4::splat((1 << 23) as f32 + self.used as f32 - 1.0);
+        let last = Vec4::splat((1 << 23) as f32 + N as f32 - 1.0);
         let first = Vec4::splat((1 << 23) as f32);
         for r in refs {
             let (low, high) = r.corners();
             let bin = |corner: Vec4| {
                 let at = ((corner - self.origin) * self.scale + shift).min(last).max(first);
-                at.to_array().map(|x| x.to_bits() as usize % MAX_BINS)
+                at.to_array().map(|x| x.to_bits() as usize % N)
             };
             let (from, to) = (bin(low), bin(high));
             for axis in 0..3 {
@@ -97,14 +87,13 @@ impl Bins {
     }
 
     /// Adds what was counted elsewhere, in bins over the same content.
-    pub(super) fn merge(mut self, other: &Self) -> Self {
+    pub(super) fn merge(&mut self, other: &Self) {
         for axis in 0..3 {
-            for i in 0..self.used {
+            for i in 0..N {
                 self.starts[axis][i].merge(&other.starts[axis][i]);
                 self.ends[axis][i].merge(&other.ends[axis][i]);
             }
         }
-        self
     }
 
     /// The cheapest plane that duplicates at most `budget` of `count` references; `None` when none separates anything.
@@ -119,21 +108,30 @@ impl Bins {
         let scale = 1.0 / content.half_area();
         let mut best: Option<Choice> = None;
         for axis in 0..3 {
-            let after = self.ends_after(axis);
-            let starts = self.starts_after(axis);
+            let (starts, ends) = (&self.starts[axis], &self.ends[axis]);
+            let after = Self::ends_after(ends);
+            let first_starts = Self::starts_after(starts, axis);
             let mut before = Bin::EMPTY;
             let mut last_end = f32::NEG_INFINITY;
-            for border in 1..self.used {
-                before.merge(&self.starts[axis][border - 1]);
-                last_end = last_end.max(self.ends[axis][border - 1].around.high[axis]);
-                let (left, right) = (before.count as usize, after[border].count as usize);
-                let separates = left < count || right < count;
-                if !(separates && left + right <= count + budget) {
+            for border in 1..N {
+                let (start, end) = (&starts[border - 1], &ends[border - 1]);
+                before.merge(start);
+                last_end = last_end.max(end.around.high.as_ref()[axis]);
+                // As good as the border before.
+                if border > 1 && start.count == 0 && end.count == 0 {
+                    continue;
+                }
+                let (left, right) = (before.count, after[border].count);
+                let (on_left, on_right) = (left as usize, right as usize);
+                let separates = on_left < count || on_right < count;
+                // The plane will cut no more than that: what it cuts begins below the border and ends above.
+                if !(separates && on_left + on_right <= count + budget) {
                     continue;
                 }
                 // Between the last end below the border and the first start above it, all planes cut the same boxes.
                 let is_inside = |position: f32| cell.min[axis] < position && position < cell.max[axis];
-                let Some(position) = [last_end, starts[border]].into_iter().find(|p| is_inside(*p)) else {
+                let Some(position) = [last_end, first_starts[border]].into_iter().find(|p| is_inside(*p))
+                else {
                     continue;
                 };
                 let (mut below, mut above) = (before.around, after[border].around);
@@ -150,22 +148,23 @@ impl Bins {
     }
 
     /// For each bin the first start in it or later.
-    fn starts_after(&self, axis: usize) -> [f32; MAX_BINS] {
-        let mut firsts = [f32::INFINITY; MAX_BINS];
+    fn starts_after(starts: &[Bin; N], axis: usize) -> [f32; N] {
+        let mut firsts = [f32::INFINITY; N];
         let mut first = f32::INFINITY;
-        for i in (0..self.used).rev() {
-            first = first.min(self.starts[axis][i].around.low[axis]);
+        for (i, start) in starts.iter().enumerate().rev() {
+            first = first.min(start.around.low.as_ref()[axis]);
             firsts[i] = first;
         }
         firsts
     }
 
     /// For each bin what ends in it or later.
-    fn ends_after(&self, axis: usize) -> [Bin; MAX_BINS] {
-        let mut sums = self.ends[axis];
-        for i in (0..self.used.saturating_sub(1)).rev() {
-            let next = sums[i + 1];
-            sums[i].merge(&next);
+    fn ends_after(ends: &[Bin; N]) -> [Bin; N] {
+        let mut sums = *ends;
+        let mut sum = Bin::EMPTY;
+        for bin in sums.iter_mut().rev() {
+            bin.merge(&sum);
+            sum = *bin;
         }
         sums
     }
