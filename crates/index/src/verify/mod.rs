@@ -137,7 +137,8 @@ impl<'m> Verifier<'m> {
     /// Holds the answers of all indices against brute force; the ray is counted by the caller.
     fn judge(&self, number: u64, ray: Ray, answers: Vec<(&str, Answer)>) -> Agreement {
         let expected = brute_force(self.mesh, &ray);
-        let differs = |&(_, (got, got_any)): &(&str, Answer)| got != expected || got_any != expected.is_some();
+        let differs =
+            |&(_, (got, got_any)): &(&str, Answer)| got != expected || got_any != expected.is_some();
         let disagreements = answers
             .into_iter()
             .filter(differs)

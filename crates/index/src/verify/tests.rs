@@ -23,8 +23,12 @@ fn every_wrong_answer_is_a_disagreement() {
     let right = brute_force(&mesh, &ray);
     let mut far = right;
     far.as_mut().unwrap().hit.t = 1.0_f32.next_up();
-    let answers =
-        vec![("right", (right, true)), ("blind", (None, false)), ("torn", (right, false)), ("far", (far, true))];
+    let answers = vec![
+        ("right", (right, true)),
+        ("blind", (None, false)),
+        ("torn", (right, false)),
+        ("far", (far, true)),
+    ];
     let Agreement { hits, judged, disagreements, .. } = verifier.judge(7, ray, answers);
     assert_eq!((hits, judged), (1, 1));
     let found: Vec<_> = disagreements.iter().map(|d| (d.index.as_str(), d.got, d.got_any)).collect();
