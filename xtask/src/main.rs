@@ -31,7 +31,7 @@ enum Chore {
     },
     /// Check what the compiler does not: the import graph, file sizes, headers, left-overs, links.
     Tidy,
-    /// Generate the meshes and textures that the scenes use.
+    /// Generate the meshes and textures that the scenes use, and the picture in the docs of the index.
     Assets,
     /// Render every scene and write scenes/README.md.
     Gallery {

@@ -4,7 +4,7 @@
 //! with `cargo run -p heliostat-index --example line_of_sight`.
 
 use glam::Vec3;
-use heliostat_geometry::{Interval, Ray, TriMesh};
+use heliostat_geometry::{Ray, TriMesh};
 use heliostat_index::{BuildError, BuildParams, MeshTree};
 
 /// Height of the hills.
@@ -42,7 +42,7 @@ fn main() -> Result<(), BuildError> {
     };
     let towers: Vec<Vec3> = (0..121).map(tower).collect();
 
-    let segment = |a: Vec3, b: Vec3| Ray { origin: a, dir: b - a, range: Interval { min: 0.0, max: 1.0 } };
+    let segment = |a: Vec3, b: Vec3| Ray::new(a, b - a).until(1.0);
     let sees = |a: usize, b: usize| !tree.any_hit(&segment(towers[a], towers[b]));
     let pairs = (0..towers.len()).flat_map(|a| (0..a).map(move |b| (a, b)));
     let (seen, all) = pairs.fold((0, 0), |(seen, all), (a, b)| (seen + u32::from(sees(a, b)), all + 1));

@@ -2,15 +2,8 @@
 //!
 //! [`BspTree`] cuts the box around all primitives by axis-aligned planes into disjoint cells. A ray walks through
 //! the cells it meets, front to back, and tests the primitives they name; once the nearest hit lies before the
-//! next cell, it is done. Three structures answer the same queries, [`RayIndex`]: the tree, [`BruteForce`] (every
-//! primitive, always: slow and beyond doubt) and, with feature `reference`, the BVH of the `obvhs` crate.
-//!
-//! The tree knows its primitives only by their boxes ([`Primitives`]); what a hit *is* decides a closure of the
-//! caller. [`MeshTree`] is the same tree with the test for triangle meshes built in, eight triangles at a time.
-//!
-//! What is built is binary: planes that cut cells. What rays walk is made from it: nodes of up to eight cells, each with the
-//! box of what is in it, compared with a ray all at once by the vector instructions that the processor turns out to have
-//! ([`Backend`]). Feature `parallel` builds on all threads of the current rayon pool; the tree is the same.
+//! next cell, it is done. The tree knows its primitives only by their boxes ([`Primitives`]); what a hit *is* decides a
+//! closure of the caller. [`MeshTree`] is the same tree with the test for triangle meshes built in.
 //!
 //! ```
 //! use heliostat_geometry::{Aabb, Ray};
@@ -36,6 +29,52 @@
 //! assert_eq!((found.primitive, found.t), (0, 4.0));
 //! # Ok::<(), heliostat_index::BuildError>(())
 //! ```
+//!
+//! # What a tree looks like
+//!
+//! <figure style="margin: 0">
+#![doc = include_str!("../docs/partition.svg")]
+//! </figure>
+//!
+//! A bird of 18,000 triangles, and the cells that a plane through its middle meets: what [`export_obj`] writes, or
+//! `heliostat index bird.obj --export cells.obj`, cut open. Each build has a preset in [`BuildParams`]:
+//!
+//! | preset | cuts | take it for |
+//! |---|---|---|
+//! | [`MIDPOINT`](BuildParams::MIDPOINT) | the longest edge in the middle, until few primitives are left: the classic build | comparing, teaching |
+//! | [`FAST`](BuildParams::FAST) | by the surface area heuristic over boxes | things that change often |
+//! | [`BALANCED`](BuildParams::BALANCED) | by the heuristic over primitives clipped to the cell | anything else: renders use it |
+//! | [`BEST`](BuildParams::BEST) | the same, with smaller leaves and more references | more queries than the build can cost |
+//!
+//! The heuristic cuts where the expected work of a ray is least. It need not cut empty space away, as `MIDPOINT` does: the
+//! boxes of the second form below do that.
+//!
+//! # From planes to lanes
+//!
+//! 1. **Binary.** [`BspTree::build`] cuts cell by cell. A node is a plane with two children, or a leaf that names every
+//!    primitive whose part in its cell is more than a touch; a primitive may lie in several leaves. This is the form that
+//!    [`BspTree::validate`] holds against the primitives, [`BspTree::stats`] counts, and [`export_obj`] writes.
+//! 2. **Wide.** Treelets of the binary tree become nodes of up to eight children, each with the box around what its cell
+//!    holds. As cells are disjoint, the signs of a ray's direction give the order of the children: no distances are sorted.
+//! 3. **Blocks.** [`MeshTree`] lays out the triangles of each leaf in blocks of eight, side by side.
+//!
+//! A query goes down the wide nodes: one compares the ray with eight boxes at a time, keeps those that it meets, and enters the
+//! nearest first. In a leaf of a mesh, eight triangles at a time get a verdict and an interval for the distance; only the
+//! nearest is intersected exactly, and those that the intervals cannot tell apart. All of it runs on the vector instructions
+//! that the processor turns out to have: [`Backend`].
+//!
+//! # What can be asked
+//!
+//! Nearest hit, any hit, all hits: [`RayIndex`] for closures, methods of the same names on [`MeshTree`]. [`BruteForce`]
+//! (every primitive, always: slow and beyond doubt) answers the same, and [`verify`] holds indices against it, ray by ray.
+//! The examples `picking` and `line_of_sight` show both kinds.
+//!
+//! # Features
+//!
+//! - `parallel` builds on all threads of the current rayon pool; the tree is the same.
+//! - `reference` adds the BVH of the `obvhs` crate behind the same queries, as a second witness: `ReferenceBvh`.
+//!
+//! None is on by default; without them the crate needs `glam` and `heliostat-geometry` alone.
 //!
 //! # What holds
 //!

@@ -1,10 +1,12 @@
-//! The meshes and textures that the scenes use, all made from formulas: the repository ships nothing foreign.
+//! The meshes and textures that the scenes use, all made from formulas: the repository ships nothing foreign. And the picture in
+//! the docs of the index.
 //!
 //! Small files go to `assets/` and are committed; large ones go to `assets/large/`, which is not.
 
 mod bird;
 mod noise;
 mod obj;
+mod partition;
 mod solids;
 mod sphere_points;
 mod textures;
@@ -35,5 +37,5 @@ pub(crate) fn run() -> Outcome {
         let path = folder.join("textures").join(name);
         image.save(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     }
-    Ok(())
+    partition::draw()
 }

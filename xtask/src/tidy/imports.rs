@@ -58,6 +58,7 @@ const GRAPH: &[Allowed] = &[
             "indicatif",
             "miette",
             "rayon",
+            "serde",
             "serde_json",
             "signal-hook",
             "tempfile",

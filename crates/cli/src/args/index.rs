@@ -10,6 +10,7 @@ Every mesh has a tree of its own, over its triangles; the object tree is over th
 Examples:
   heliostat index model.obj                                  statistics of all trees
   heliostat index model.obj --preset midpoint --verify 100000
+  heliostat index model.obj --replay model.disagreements.jsonl
   heliostat index model.obj --export tree.obj --what depth=4
   heliostat index scene.toml --heatmap cost.png              nodes visited per pixel, as colours";
 
@@ -39,6 +40,14 @@ pub(crate) struct IndexArgs {
     /// Trace this many random rays through the tree, a bounding volume hierarchy and brute force, and compare (exit code 1 if they differ)
     #[arg(long, value_name = "RAYS", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     pub(crate) verify: Option<u32>,
+
+    /// Where `--verify` saves the rays that an index gets wrong, if there are any [default: SCENE.disagreements.jsonl]
+    #[arg(long, value_name = "FILE", requires = "verify")]
+    pub(crate) disagreements: Option<PathBuf>,
+
+    /// Trace the rays that `--verify` saved once more, through all indices or that of --preset (exit code 1 if any still differs)
+    #[arg(long, value_name = "FILE", conflicts_with = "verify")]
+    pub(crate) replay: Option<PathBuf>,
 
     /// Render what each pixel costs in the tree, as a heat map
     #[arg(long, value_name = "PNG")]

@@ -7,6 +7,7 @@ mod frames;
 mod help;
 mod images;
 mod pipes;
+mod replay;
 #[cfg(unix)]
 mod signals;
 mod stats;

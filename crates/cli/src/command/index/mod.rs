@@ -1,5 +1,9 @@
 //! `heliostat index`: how trees divide a scene, whether they find what brute force finds, and what they cost.
 
+mod replay;
+mod replay_file;
+#[cfg(test)]
+mod test_scene;
 mod trees;
 mod verify;
 
@@ -7,19 +11,22 @@ use crate::args::value::{Boxes, Tree};
 use crate::args::{IndexArgs, Preset};
 use crate::diagnose::Failure;
 use crate::exit::Exit;
-use crate::output::check_writable;
+use crate::output::{beside_cwd, check_writable};
 use crate::table::{self, Table};
-use crate::{open, out};
+use crate::{open, out, progress};
+use clap::ValueEnum;
 use heliostat_index::{BuildParams, ExportWhat, TreeStats, export_obj};
 use heliostat_io::atomic::write_atomically;
 use heliostat_scene::Scene;
+use replay_file::Found;
 use serde_json::{Value, json};
 use std::path::Path;
 use trees::SceneTree;
+use verify::Judged;
 
 /// Shows statistics; exports, verifies and draws what was asked for.
 pub(crate) fn run(args: &IndexArgs) -> Result<Exit, Failure> {
-    for path in args.export.iter().chain(&args.heatmap) {
+    for path in args.export.iter().chain(&args.heatmap).chain(&args.disagreements) {
         check_writable(path)?;
     }
     let shot = open::first_shot(&args.scene)?;
@@ -40,20 +47,69 @@ pub(crate) fn run(args: &IndexArgs) -> Result<Exit, Failure> {
     }
     if let Some(path) = &args.heatmap {
         super::render::heatmap(&shot, path)?;
+        saved(path, args);
     }
-    let mut exit = Exit::Done;
+    let mut agrees = true;
     if let Some(rays) = args.verify {
-        let verified = verify::run(&shot.scene, &presets, rays)?;
-        if !args.json {
-            out::line(format_args!("{}", verified.text.trim_end()));
-        }
-        json["verify"] = verified.json;
-        exit = if verified.agrees { Exit::Done } else { Exit::Failed };
+        agrees &= verify(&shot.scene, &presets, rays, args, &mut json)?;
+    }
+    if let Some(path) = &args.replay {
+        // An index that was wrong is among all of them, whichever were verified.
+        let presets = args.preset.map_or(Preset::value_variants().to_vec(), |preset| vec![preset]);
+        let judged = replay::run(&shot.scene, &presets, path)?;
+        agrees &= judged.agrees;
+        report(judged, args, &mut json["replay"]);
     }
     if args.json {
         out::line(format_args!("{json:#}"));
     }
-    Ok(exit)
+    Ok(if agrees { Exit::Done } else { Exit::Failed })
+}
+
+/// Whether all agree; where they do not, the rays are saved.
+fn verify(
+    scene: &Scene,
+    presets: &[Preset],
+    rays: u32,
+    args: &IndexArgs,
+    json: &mut Value,
+) -> Result<bool, Failure> {
+    let (judged, found) = verify::run(scene, presets, rays)?;
+    report(judged, args, &mut json["verify"]);
+    save_disagreements(scene, &found, args, json)?;
+    Ok(found.is_empty())
+}
+
+/// Writes the file for `--replay`, where there is anything to replay.
+fn save_disagreements(
+    scene: &Scene,
+    found: &[Found],
+    args: &IndexArgs,
+    json: &mut Value,
+) -> Result<(), Failure> {
+    if found.is_empty() {
+        return Ok(());
+    }
+    let by_default = beside_cwd(&args.scene, "disagreements.jsonl");
+    let path = args.disagreements.as_ref().unwrap_or(&by_default);
+    replay_file::save(path, scene, found, verify::SEED)?;
+    json["disagreements"] = json!(path.to_string_lossy());
+    saved(path, args);
+    Ok(())
+}
+
+/// Shows what came of a comparison, or keeps it for the JSON at the end.
+fn report(judged: Judged, args: &IndexArgs, json: &mut Value) {
+    if !args.json {
+        out::line(format_args!("{}", judged.text.trim_end()));
+    }
+    *json = judged.json;
+}
+
+/// Tells of a file; standard output stays JSON where that was asked for.
+fn saved(path: &Path, args: &IndexArgs) {
+    let line = format!("Saved: '{}'", progress::clean(&path.to_string_lossy()));
+    if args.json { out::note(format_args!("{line}")) } else { out::line(format_args!("{line}")) }
 }
 
 /// The build that a preset stands for.
@@ -89,7 +145,7 @@ fn export(scene: &Scene, trees: &[SceneTree], args: &IndexArgs, path: &Path) -> 
         Boxes::Depth(depth) => ExportWhat::Depth(depth),
     };
     write_atomically(path, |mut out| export_obj(tree.tree(), what, &mut out))?;
-    out::line(format_args!("Saved: '{}'", path.display()));
+    saved(path, args);
     Ok(())
 }
 
@@ -149,7 +205,7 @@ fn statistics_text(built: &[(Preset, Vec<SceneTree>)]) -> String {
             stats.depth.to_string(),
             format!("{:.2}", stats.references_per_primitive),
             format!("{:.1}", stats.sah_cost),
-            crate::progress::bytes(stats.bytes as u64),
+            progress::bytes(stats.bytes as u64),
             format!("{:.2} s", stats.build_seconds),
         ]);
     }

@@ -1,34 +1,38 @@
 //! Random rays through every tree, an independent bounding volume hierarchy and brute force: all must agree.
 
+use super::replay_file::Found;
 use super::{name, params, trees};
 use crate::args::Preset;
 use crate::diagnose::Failure;
 use crate::table;
-use heliostat_index::verify::{Agreement, Verifier};
+use heliostat_index::MeshHit;
+use heliostat_index::verify::{Agreement, Disagreement, Verifier};
 use heliostat_scene::Scene;
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
 /// What came of it.
-pub(super) struct Verified {
+pub(super) struct Judged {
     pub(super) agrees: bool,
     pub(super) text: String,
     pub(super) json: Value,
 }
 
-/// Traces `rays` rays through each mesh of the scene.
-pub(super) fn run(scene: &Scene, presets: &[Preset], rays: u32) -> Result<Verified, Failure> {
+/// Which rays are traced: the same ones in every run.
+pub(super) const SEED: u64 = 0;
+
+/// Traces `rays` rays through each mesh of the scene; returns every disagreement, too.
+pub(super) fn run(scene: &Scene, presets: &[Preset], rays: u32) -> Result<(Judged, Vec<Found>), Failure> {
     let settings: Vec<_> = presets.iter().map(|&preset| (name(preset), params(preset))).collect();
     let mut text = String::new();
     let mut meshes = Vec::new();
-    let mut agrees = true;
+    let mut found: Vec<Found> = Vec::new();
     for (number, mesh) in scene.meshes.iter().enumerate() {
         let mesh_name = trees::mesh_name(scene, number);
         let verifier = Verifier::new(mesh, &settings).map_err(|e| trees::failure(&mesh_name, &e))?;
         let verifier = verifier.judging_every(judge_every(u64::from(rays), mesh.triangles.len() as u64));
         let agreement = trace(&verifier, rays);
-        agrees &= agreement.disagreements.is_empty();
         describe(&mesh_name, &agreement, &mut text);
         meshes.push(json!({
             "mesh": mesh_name,
@@ -37,11 +41,12 @@ pub(super) fn run(scene: &Scene, presets: &[Preset], rays: u32) -> Result<Verifi
             "judged_by_brute_force": agreement.judged,
             "disagreements": agreement.disagreements.len(),
         }));
+        found.extend(agreement.disagreements.into_iter().map(|wrong| (number, wrong)));
     }
     if scene.meshes.is_empty() {
         text.push_str("verify: the scene has no mesh\n");
     }
-    Ok(Verified { agrees, text, json: json!(meshes) })
+    Ok((Judged { agrees: found.is_empty(), text, json: json!(meshes) }, found))
 }
 
 /// One ray in how many brute force judges, so that it takes about a minute at most; the others are judged where the trees and the
@@ -54,7 +59,6 @@ fn judge_every(rays: u64, triangles: u64) -> u64 {
 /// All rays, spread over the processors; the order of the pieces does not change the sum.
 fn trace(verifier: &Verifier<'_>, rays: u32) -> Agreement {
     const PIECE: u32 = 256;
-    const SEED: u64 = 0;
     let pieces = rays.div_ceil(PIECE);
     let piece = |i: u32| u64::from(i * PIECE)..u64::from(rays.min(i.saturating_add(1).saturating_mul(PIECE)));
     let each = (0..pieces).into_par_iter().map(|i| verifier.run(piece(i), SEED));
@@ -86,10 +90,26 @@ fn describe(mesh: &str, agreement: &Agreement, text: &mut String) {
         }
     };
     for found in agreement.disagreements.iter().take(SHOWN) {
-        let _ = writeln!(
-            text,
-            "  ray {} from {} along {}: {} says {:?}, brute force {:?}",
-            found.number, found.ray.origin, found.ray.dir, found.index, found.got, found.expected
-        );
+        let (number, ray) = (found.number, found.ray);
+        let _ = writeln!(text, "  ray {number} from {} along {}: {}", ray.origin, ray.dir, difference(found));
     }
+    if wrong > SHOWN {
+        let _ = writeln!(text, "  and {} more", table::count(wrong - SHOWN));
+    }
+}
+
+/// What an index says, and what brute force.
+pub(super) fn difference(found: &Disagreement) -> String {
+    let says = |hit: Option<MeshHit>| match hit {
+        Some(MeshHit { triangle, hit }) => {
+            format!("triangle {triangle} at {} with weights {:?}", hit.t, hit.barycentric)
+        }
+        None => "no hit".to_owned(),
+    };
+    let any = match (found.got_any, found.got.is_some()) {
+        (true, false) => " (but its any-hit query a hit)",
+        (false, true) => " (but its any-hit query no hit)",
+        _ => "",
+    };
+    format!("{} says {}{any}, brute force {}", found.index, says(found.got), says(found.expected))
 }

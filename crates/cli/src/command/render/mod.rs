@@ -175,6 +175,5 @@ pub(crate) fn heatmap(shot: &Shot, path: &Path) -> Result<(), Failure> {
     let traced = trace::trace(&shot.scene, &settings, &mut TreeCache::default(), &progress, &never)?;
     progress.finish();
     write_png(path, &traced.frame, &PngOptions::default())?;
-    progress.result(&format!("Saved: '{}'", progress::clean(&path.to_string_lossy())));
     Ok(())
 }

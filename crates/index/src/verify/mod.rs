@@ -1,7 +1,9 @@
 //! Agreement of several indices over one mesh, ray by ray, judged by brute force.
 //!
-//! Ray number `i` of a seed is always the same ray, so that a disagreement is replayed by its number, and
-//! ranges of numbers can be traced on any number of threads.
+//! Ray number `i` of a seed is always the same ray of a mesh, so that ranges of numbers can be traced on any number of
+//! threads. A disagreement holds its ray, to be traced again alone: [`Verifier::replay`].
+
+mod random;
 
 use crate::bsp::{BuildError, BuildParams};
 use crate::mesh_tree::{MeshHit, MeshTree, brute_force};
@@ -11,6 +13,7 @@ use glam::Vec3;
 #[cfg(feature = "reference")]
 use heliostat_geometry::triangle::{TriangleRay, intersect};
 use heliostat_geometry::{Aabb, Ray, TriMesh};
+use random::Random;
 use std::ops::Range;
 
 /// A ray on which an index does not say what brute force says.
@@ -26,6 +29,8 @@ pub struct Disagreement {
     pub expected: Option<MeshHit>,
     /// What the index found.
     pub got: Option<MeshHit>,
+    /// What its any-hit query said.
+    pub got_any: bool,
 }
 
 /// What came of a comparison.
@@ -116,17 +121,33 @@ impl<'m> Verifier<'m> {
                 agreement.hits += u64::from(hit);
                 continue;
             }
-            let expected = brute_force(self.mesh, &ray);
-            agreement.judged += 1;
-            agreement.hits += u64::from(expected.is_some());
-            for (index, (got, occluded)) in answers {
-                if got != expected || occluded != expected.is_some() {
-                    let index = index.to_owned();
-                    agreement.disagreements.push(Disagreement { number, ray, index, expected, got });
-                }
-            }
+            agreement.merge(self.judge(number, ray, answers));
         }
         agreement
+    }
+
+    /// Traces one ray through all indices and brute force; `number` is what disagreements will call it.
+    ///
+    /// Unlike the rays of [`Verifier::run`] it may be any ray, such as one that an earlier build got wrong.
+    pub fn replay(&self, number: u64, ray: Ray) -> Agreement {
+        let answers = self.answers(&ray);
+        Agreement { rays: 1, ..self.judge(number, ray, answers) }
+    }
+
+    /// Holds the answers of all indices against brute force; the ray is counted by the caller.
+    fn judge(&self, number: u64, ray: Ray, answers: Vec<(&str, Answer)>) -> Agreement {
+        let expected = brute_force(self.mesh, &ray);
+        let differs =
+            |&(_, (got, got_any)): &(&str, Answer)| got != expected || got_any != expected.is_some();
+        let disagreements = answers
+            .into_iter()
+            .filter(differs)
+            .map(|(index, (got, got_any))| {
+                let index = index.to_owned();
+                Disagreement { number, ray, index, expected, got, got_any }
+            })
+            .collect();
+        Agreement { rays: 0, hits: u64::from(expected.is_some()), judged: 1, disagreements }
     }
 
     /// What each index says of a ray.
@@ -195,49 +216,5 @@ fn unanimous(answers: &[(&str, Answer)]) -> Option<bool> {
     (agree && first.0.is_some() == first.1).then_some(first.1)
 }
 
-/// Random numbers that follow from the number of a ray and a seed.
-///
-/// # Source
-/// Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014 (`SplitMix64`).
-struct Random(u64);
-
-impl Random {
-    const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
-
-    fn new(number: u64, seed: u64) -> Self {
-        let mut start = Self(seed);
-        let mixed = start.bits();
-        Self(mixed ^ number.wrapping_mul(0xD134_2543_DE82_EF95))
-    }
-
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(Self::STEP);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    /// In `[0, 1)`.
-    fn unit(&mut self) -> f32 {
-        (self.bits() >> 40) as f32 / (1_u64 << 24) as f32
-    }
-
-    /// In `0..n`; the bias for an `n` far below 2^64 is nil.
-    fn below(&mut self, n: usize) -> usize {
-        (self.bits() % n as u64) as usize
-    }
-
-    fn point(&mut self, bounds: Aabb) -> Vec3 {
-        let u = Vec3::new(self.unit(), self.unit(), self.unit());
-        bounds.min + u * bounds.size()
-    }
-
-    /// A unit vector, uniform on the sphere.
-    fn direction(&mut self) -> Vec3 {
-        let z = 1.0 - 2.0 * self.unit();
-        let (sin, cos) = (std::f32::consts::TAU * self.unit()).sin_cos();
-        let r = (1.0 - z * z).max(0.0).sqrt();
-        Vec3::new(r * cos, r * sin, z)
-    }
-}
+#[cfg(test)]
+mod tests;

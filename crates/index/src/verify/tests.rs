@@ -1,0 +1,47 @@
+//! The verifier against answers that are wrong on purpose.
+
+use super::{Agreement, Verifier};
+use crate::bsp::BuildParams;
+use crate::mesh_tree::brute_force;
+use glam::Vec3;
+use heliostat_geometry::{Ray, TriMesh};
+
+/// One triangle in the plane z = 0.
+fn triangle() -> TriMesh {
+    TriMesh {
+        positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+        triangles: vec![[0, 1, 2]],
+        ..TriMesh::default()
+    }
+}
+
+#[test]
+fn every_wrong_answer_is_a_disagreement() {
+    let mesh = triangle();
+    let verifier = Verifier::new(&mesh, &[("best", BuildParams::BEST)]).unwrap();
+    let ray = Ray::new(Vec3::new(0.25, 0.25, 1.0), Vec3::NEG_Z);
+    let right = brute_force(&mesh, &ray);
+    let mut far = right;
+    far.as_mut().unwrap().hit.t = 1.0_f32.next_up();
+    let answers = vec![
+        ("right", (right, true)),
+        ("blind", (None, false)),
+        ("torn", (right, false)),
+        ("far", (far, true)),
+    ];
+    let Agreement { hits, judged, disagreements, .. } = verifier.judge(7, ray, answers);
+    assert_eq!((hits, judged), (1, 1));
+    let found: Vec<_> = disagreements.iter().map(|d| (d.index.as_str(), d.got, d.got_any)).collect();
+    assert_eq!(found, [("blind", None, false), ("torn", right, false), ("far", far, true)]);
+    assert!(disagreements.iter().all(|d| d.number == 7 && d.ray == ray && d.expected == right));
+}
+
+#[test]
+fn a_replay_is_judged_whatever_the_sample() {
+    let mesh = triangle();
+    let verifier = Verifier::new(&mesh, &[("best", BuildParams::BEST)]).unwrap().judging_every(1000);
+    let ray = verifier.ray(1, 0);
+    let again = verifier.replay(1, ray);
+    assert_eq!((again.rays, again.judged, again.disagreements.len()), (1, 1, 0));
+    assert_eq!(again.hits, verifier.run(1..2, 0).hits);
+}
