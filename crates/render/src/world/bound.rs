@@ -38,7 +38,11 @@ impl Bound {
         if let Some(Blocker::Sphere(sphere)) = solid.blocker {
             return Self::Sphere(Ball::around(sphere.centre.as_vec3(), sphere.radius as f32));
         }
-        let bounds = solid.bounds;
+        Self::of_box(solid.bounds)
+    }
+
+    /// The bound of what has a box that is not empty.
+    pub(super) fn of_box(bounds: Aabb) -> Self {
         if !bounds.is_finite() {
             return Self::Unbounded;
         }

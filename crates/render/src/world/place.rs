@@ -18,7 +18,7 @@ pub(crate) enum Place<'s> {
 pub(crate) enum Now<'s> {
     /// The same at all times.
     Still(&'s Transform),
-    /// Interpolated.
+    /// Worked out for this moment.
     Moving(Transform),
 }
 
@@ -52,15 +52,23 @@ impl<'s> Place<'s> {
         }
     }
 
+    /// The map of a moment to world space, where this is a place in a space that `outer` maps there; `None` as in
+    /// [`Place::now`].
+    #[inline]
+    pub(super) fn below<'a>(&'a self, outer: &'a Transform, time: f32) -> Option<Now<'a>> {
+        match self {
+            Self::Still(inner) if inner.is_identity() => Some(Now::Still(outer)),
+            _ if outer.is_identity() => self.now(time),
+            Self::Still(inner) => inner.then(outer).map(Now::Moving),
+            Self::Moving(_) => self.now(time)?.then(outer).map(Now::Moving),
+        }
+    }
+
     /// The box in world space of what has the box `local`, over the whole shutter.
-    ///
-    /// Points move on straight lines between two poses, so the boxes at the poses bound all that lies between.
     pub(crate) fn bounds(&self, local: Aabb) -> Aabb {
         match self {
             Self::Still(transform) => transform.bounds(local),
-            Self::Moving(motion) => {
-                motion.poses().iter().fold(Aabb::EMPTY, |around, pose| around.union(pose.bounds(local)))
-            }
+            Self::Moving(motion) => motion.bounds(local),
         }
     }
 }

@@ -8,8 +8,8 @@
 //! Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021.
 
 use super::World;
+use super::body::Body;
 use super::hit::SurfaceHit;
-use super::solid::Body;
 use glam::{DVec3, Vec3};
 
 impl World<'_> {
@@ -18,16 +18,14 @@ impl World<'_> {
     /// Zero on shapes, on faceted meshes, and where the smooth surface lies below the facet.
     pub(crate) fn lift(&self, hit: &SurfaceHit, turned: bool, time: f32) -> Vec3 {
         let Some((triangle, weights)) = hit.triangle else { return Vec3::ZERO };
-        let Some(Body::Mesh { mesh, .. }) = self.solid_of(hit).map(|solid| &solid.body) else {
-            return Vec3::ZERO;
-        };
+        let Some(standing) = self.behind(hit, time) else { return Vec3::ZERO };
+        let Body::Mesh { mesh, .. } = standing.body else { return Vec3::ZERO };
         if mesh.normals.is_empty() {
             return Vec3::ZERO;
         }
         let p = hit.hit.at.p.as_dvec3();
         let side = if turned { -1.0 } else { 1.0 };
-        let Some(solid) = self.solid_of(hit) else { return Vec3::ZERO };
-        let Some(transform) = solid.place.now(time) else { return Vec3::ZERO };
+        let transform = standing.place;
         let corners = mesh.triangles[triangle as usize].map(|v| v as usize);
         let lift = corners.into_iter().zip(weights).fold(DVec3::ZERO, |lift, (corner, weight)| {
             // Onto the plane through the corner at right angles to its normal, if that lies above.
