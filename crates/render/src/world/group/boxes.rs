@@ -1,6 +1,6 @@
 //! The index of a level of a group: which of its boxes a ray may meet.
 
-use super::super::bound::Bound;
+use super::super::bound::BoxRay;
 use glam::Vec3;
 use heliostat_geometry::error_bound::mapped_ray;
 use heliostat_geometry::{Aabb, Ray};
@@ -15,7 +15,7 @@ const FEW: usize = 8;
 #[derive(Debug)]
 pub(super) enum BoxIndex {
     /// The boxes that are not empty, with their ids, ascending.
-    Few(Vec<(u32, Bound)>),
+    Few(Vec<(u32, Aabb)>),
     /// A tree over the boxes that are not empty.
     Many {
         tree: BspTree,
@@ -37,7 +37,7 @@ impl BoxIndex {
         let filled = || numbered().filter(|(_, bounds)| !bounds.is_empty());
         let count = filled().count();
         if count <= FEW {
-            return Ok(Self::Few(filled().map(|(id, &bounds)| (id, Bound::of_box(grown(bounds)))).collect()));
+            return Ok(Self::Few(filled().map(|(id, &bounds)| (id, grown(bounds))).collect()));
         }
         let grown: Vec<_> = filled().map(|(_, &bounds)| grown(bounds)).collect();
         let tree = BspTree::build(&grown, &BuildParams::BALANCED)?;
@@ -75,7 +75,10 @@ impl BoxIndex {
     /// See [`RayIndex::any_hit`].
     pub(super) fn any(&self, ray: &Ray, mut hit: impl FnMut(u32, &Ray) -> bool) -> bool {
         match self {
-            Self::Few(few) => few.iter().any(|(id, bound)| bound.may_meet(ray) && hit(*id, ray)),
+            Self::Few(few) => {
+                let to_boxes = BoxRay::new(ray);
+                few.iter().any(|(id, bounds)| to_boxes.may_meet(bounds, ray.range.max) && hit(*id, ray))
+            }
             Self::Many { tree, ids } => tree.any_hit(ray, |i, ray| hit(id(ids.as_deref(), i), ray)),
         }
     }
@@ -84,7 +87,9 @@ impl BoxIndex {
     pub(super) fn each(&self, ray: &Ray, mut visit: impl FnMut(u32)) {
         match self {
             Self::Few(few) => {
-                few.iter().filter(|(_, bound)| bound.may_meet(ray)).for_each(|(id, _)| visit(*id));
+                let to_boxes = BoxRay::new(ray);
+                let met = few.iter().filter(|(_, bounds)| to_boxes.may_meet(bounds, ray.range.max));
+                met.for_each(|(id, _)| visit(*id));
             }
             Self::Many { tree, ids } => tree.for_each_hit(ray, |i| visit(id(ids.as_deref(), i))),
         }
@@ -116,7 +121,7 @@ fn grown(bounds: Aabb) -> Aabb {
 }
 
 fn closest_of_few<T>(
-    few: &[(u32, Bound)],
+    few: &[(u32, Aabb)],
     ray: &Ray,
     cost: Option<&Cell<TraversalCost>>,
     mut hit: impl FnMut(u32, &Ray) -> Option<(f32, T)>,
@@ -124,10 +129,11 @@ fn closest_of_few<T>(
     if let Some(cost) = cost {
         add(cost, TraversalCost { tests: few.len() as u64, ..TraversalCost::default() });
     }
+    let to_boxes = BoxRay::new(ray);
     let mut search = *ray;
     let mut nearest: Option<Found<T>> = None;
-    for (primitive, bound) in few {
-        if bound.may_meet(&search)
+    for (primitive, bounds) in few {
+        if to_boxes.may_meet(bounds, search.range.max)
             && let Some((t, data)) = hit(*primitive, &search)
             // Ids ascend: of two at the same distance the lower one is there already.
             && nearest.as_ref().is_none_or(|nearest| t < nearest.t)
