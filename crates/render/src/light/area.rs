@@ -32,7 +32,7 @@ pub(super) struct AreaLight<'s> {
 enum Stand<'s> {
     Place(Place<'s>),
     /// Inside groups.
-    Chain(Chain<'s>),
+    Chain(Box<Chain<'s>>),
 }
 
 impl Stand<'_> {
@@ -71,7 +71,7 @@ enum Radiance<'s> {
 #[derive(Debug)]
 enum Shortcut<'s> {
     /// A sphere that stands still and falls off: uniform by solid angle.
-    Sphere(&'s Sphere, Now<'s>, WorldSphere),
+    Sphere(&'s Sphere, Box<Now<'s>>, WorldSphere),
     /// A flat lamp.
     Flat(WorldFlat),
 }
@@ -146,7 +146,7 @@ impl<'s> AreaLight<'s> {
     /// A part of a group with a material that shines; `None` for all others.
     pub(super) fn of_part(scene: &'s Scene, lamp: Lamp<'s>) -> Option<Self> {
         let still = lamp.chain.still().map(|still| Now::Moving(*still));
-        Self::shining(scene, lamp.object, Stand::Chain(lamp.chain), still)
+        Self::shining(scene, lamp.object, Stand::Chain(Box::new(lamp.chain)), still)
     }
 
     /// An object that stands there, and if it does not move, at the place `still`.
@@ -293,7 +293,7 @@ fn sphere_of<'s>(geometry: &'s Geometry, place: Now<'s>) -> Option<Shortcut<'s>>
     match geometry {
         Geometry::Shape(Shape::Sphere(sphere)) => {
             let world = WorldSphere::new(sphere.radius, &place)?;
-            Some(Shortcut::Sphere(sphere, place, world))
+            Some(Shortcut::Sphere(sphere, Box::new(place), world))
         }
         _ => None,
     }

@@ -268,8 +268,8 @@ impl<'s> World<'s> {
     /// The nearest surface of one thing on the way of a ray.
     fn seen_on(&self, thing: Thing, passing: &PassingRay, time: f32) -> Option<Seen> {
         let ray = passing.seen_by(thing, &passing.ray);
-        let standing = self.standing(thing, time)?;
-        let (_, meeting) = standing.body.closest(&standing.place, &ray)?;
+        let (_, meeting) =
+            self.with_thing(thing, time, |standing| standing.body.closest(standing.place, &ray))?;
         let met = Met { part: thing.part, meeting };
         let surface = self.surface(thing.solid, &ray, time, met, Parameters::Used)?;
         Some(Seen { thing, surface })
@@ -300,36 +300,49 @@ impl<'s> World<'s> {
         met: Met,
         parameters: Parameters,
     ) -> Option<SurfaceHit> {
-        let standing = self.standing(Thing { solid, part: met.part }, time)?;
-        let parameters = if parameters == Parameters::Used { parameters } else { standing.parameters };
-        let SurfaceAt { hit, local, slot, color, triangle } =
-            standing.body.surface(&standing.place, ray, met.meeting, parameters)?;
-        let owner = match standing.object {
-            Some(object) => Owner::Object { index: solid, material: object.material(slot) },
-            None => Owner::Light(self.shining[solid as usize - self.scene.objects.len()]),
-        };
-        Some(SurfaceHit { hit, owner, part: met.part, local, color, triangle })
+        self.with_thing(Thing { solid, part: met.part }, time, |standing| {
+            let parameters = if parameters == Parameters::Used { parameters } else { standing.parameters };
+            let SurfaceAt { hit, local, slot, color, triangle } =
+                standing.body.surface(standing.place, ray, met.meeting, parameters)?;
+            let owner = match standing.object {
+                Some(object) => Owner::Object { index: solid, material: object.material(slot) },
+                None => Owner::Light(self.shining[solid as usize - self.scene.objects.len()]),
+            };
+            Some(SurfaceHit { hit, owner, part: met.part, local, color, triangle })
+        })
     }
 
-    /// A thing at a moment.
-    #[inline]
-    fn standing(&self, thing: Thing, time: f32) -> Option<Standing<'_, 's>> {
+    /// Shows a thing at a moment to a closure; `None` where it has no place then.
+    #[inline(always)]
+    fn with_thing<T>(
+        &self,
+        thing: Thing,
+        time: f32,
+        look: impl FnOnce(&Standing<'_, 's>) -> Option<T>,
+    ) -> Option<T> {
         let Thing { solid: index, part } = thing;
         let solid = &self.solids[index as usize];
-        let place = solid.place.now(time)?;
+        let place = &*solid.place.now(time)?;
         match &solid.content {
             Content::Body(body) => {
                 let object = self.scene.objects.get(index as usize);
-                Some(Standing { body, place, object, parameters: self.parameters[index as usize] })
+                look(&Standing { body, place, object, parameters: self.parameters[index as usize] })
             }
-            Content::Group(group) => group.part(part, *place, time),
+            Content::Group(group) => group.with_part(part, place, time, look),
         }
     }
 
-    /// The thing behind a hit at a moment; none for the surface of a light.
-    fn behind(&self, hit: &SurfaceHit, time: f32) -> Option<Standing<'_, 's>> {
+    /// [`World::with_thing`] for the thing behind a hit; `None` for the surface of a light.
+    fn with_owner<T>(
+        &self,
+        hit: &SurfaceHit,
+        time: f32,
+        look: impl FnOnce(&Standing<'_, 's>) -> Option<T>,
+    ) -> Option<T> {
         match hit.owner {
-            Owner::Object { index, .. } => self.standing(Thing { solid: index, part: hit.part }, time),
+            Owner::Object { index, .. } => {
+                self.with_thing(Thing { solid: index, part: hit.part }, time, look)
+            }
             Owner::Light(_) => None,
         }
     }

@@ -81,7 +81,7 @@ impl World<'_> {
                 let mut share = Rgb::ONE;
                 group.each_filter(ray, time, &place, &mut |part| {
                     if let Some(object) = part.object.filter(|_| share != Rgb::ZERO) {
-                        share *= filter(object).share(ray, part.body, &part.place);
+                        share *= filter(object).share(ray, part.body, part.place);
                     }
                 });
                 share

@@ -1,7 +1,7 @@
 //! Which of all things a ray met: an object, or a part of one that is a group.
 
 use super::body::{Body, Meeting, Parameters};
-use super::place::Now;
+use heliostat_geometry::Transform;
 use heliostat_scene::Object;
 
 /// One thing in the world.
@@ -26,7 +26,7 @@ pub(super) struct Met {
 pub(super) struct Standing<'w, 's> {
     pub(super) body: &'w Body<'s>,
     /// From its local space to world space, through all groups.
-    pub(super) place: Now<'w>,
+    pub(super) place: &'w Transform,
     /// The object that the body belongs to, be it in the scene or in a group; none for the surface of a light.
     pub(super) object: Option<&'s Object>,
     /// Whether the material of the object, or a layer, looks at surface parameters.

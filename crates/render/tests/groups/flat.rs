@@ -90,9 +90,9 @@ fn object(stage: &mut Stage, thing: &Thing, groups: usize) -> Object {
         _ if groups == 0 => sphere(0.4),
         _ => Geometry::Group(GroupId(u32::from(thing.kind) % groups as u32)),
     };
-    let phong = if thing.kind % 5 == 0 { glass(1.5) } else { white() };
+    let phong = if thing.kind.is_multiple_of(5) { glass(1.5) } else { white() };
     let mut object = stage.add(geometry, phong, Transform::IDENTITY).clone();
-    if thing.kind % 7 == 0 {
+    if thing.kind.is_multiple_of(7) {
         stage.last_material().opacity = heliostat_scene::material::FloatInput::constant(0.5);
     }
     if matches!(object.geometry, Geometry::Group(_)) {

@@ -10,6 +10,12 @@ use std::cell::Cell;
 /// Up to so many boxes are looked at one by one.
 const FEW: usize = 8;
 
+/// Of more boxes the tree is built with fewer references: it is the larger part of what they take.
+const MANY: usize = 1 << 16;
+
+/// How such a tree is built.
+const COMPACT: BuildParams = BuildParams { max_duplication: 1.5, ..BuildParams::BALANCED };
+
 /// An index over boxes in the space of a group. It keeps no boxes where there are many, so that a copy takes little more than
 /// its transform.
 #[derive(Debug)]
@@ -18,7 +24,7 @@ pub(super) enum BoxIndex {
     Few(Vec<(u32, Aabb)>),
     /// A tree over the boxes that are not empty.
     Many {
-        tree: BspTree,
+        tree: Box<BspTree>,
         /// The id of each box of the tree, where some were empty.
         ids: Option<Vec<u32>>,
     },
@@ -40,7 +46,8 @@ impl BoxIndex {
             return Ok(Self::Few(filled().map(|(id, &bounds)| (id, grown(bounds))).collect()));
         }
         let grown: Vec<_> = filled().map(|(_, &bounds)| grown(bounds)).collect();
-        let tree = BspTree::build(&grown, &BuildParams::BALANCED)?;
+        let params = if count > MANY { COMPACT } else { BuildParams::BALANCED };
+        let tree = Box::new(BspTree::build(&grown, &params)?);
         let ids = (count < boxes.len()).then(|| filled().map(|(id, _)| id).collect());
         Ok(Self::Many { tree, ids })
     }

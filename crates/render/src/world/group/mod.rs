@@ -165,20 +165,26 @@ impl<'s> PreparedGroup<'s> {
         self.shadow
     }
 
-    /// The part of that number at a moment, where `place` maps the space of the group to world space.
-    pub(super) fn part(&self, number: u64, place: Transform, time: f32) -> Option<Standing<'_, 's>> {
+    /// Shows the part of that number at a moment to a closure, where `place` maps the space of the group to world space.
+    pub(super) fn with_part<T>(
+        &self,
+        number: u64,
+        place: &Transform,
+        time: f32,
+        look: impl FnOnce(&Standing<'_, 's>) -> Option<T>,
+    ) -> Option<T> {
         let copy = usize::try_from(number / self.parts).ok()?;
         let number = number % self.parts;
-        let place = *self.copy(copy, &place)?;
+        let place = &*self.copy(copy, place)?;
         let index = self.members.partition_point(|member| member.first <= number) - 1;
         let member = &self.members[index];
-        let place = *member.place.below(&place, time)?;
+        let place = &*member.place.below(place, time)?;
         match &member.content {
             Content::Body(body) => {
                 let (object, parameters) = (Some(member.object), member.parameters);
-                Some(Standing { body, place: Now::Moving(place), object, parameters })
+                look(&Standing { body, place, object, parameters })
             }
-            Content::Group(group) => group.part(number - member.first, place, time),
+            Content::Group(group) => group.with_part(number - member.first, place, time, look),
         }
     }
 

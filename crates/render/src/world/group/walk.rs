@@ -131,7 +131,7 @@ impl<'s> Member<'s> {
         match &self.content {
             Content::Body(body) => {
                 let (object, parameters) = (Some(self.object), self.parameters);
-                visit(&Standing { body, place, object, parameters });
+                visit(&Standing { body, place: &place, object, parameters });
             }
             Content::Group(group) => group.each_filter(ray, time, &place, visit),
         }
