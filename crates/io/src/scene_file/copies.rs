@@ -160,12 +160,12 @@ mod tests {
         assert_ne!(places, table(&text.replace("seed = 3", "seed = 4")).places());
         let shift = |i: usize| places[i].translation - DVec3::new(10.0 * i as f64, 0.0, 0.0);
         let scale = |i: usize| places[i].matrix3.y_axis.length();
-        for i in 0..500 {
+        for (i, place) in places.iter().enumerate() {
             let by = shift(i);
             assert!(by.x.abs() < 1.0 && by.y.abs() < 2.0 && by.z == 0.0, "{by}");
             assert!(scale(i) > 0.5 && scale(i) < 1.5);
             // Turned about y by at most a right angle: x never points back.
-            assert!(places[i].matrix3.x_axis.x >= 0.0 && places[i].matrix3.x_axis.y == 0.0);
+            assert!(place.matrix3.x_axis.x >= 0.0 && place.matrix3.x_axis.y == 0.0);
         }
         let spread = |value: &dyn Fn(usize) -> f64| {
             let values = (0..500).map(value);

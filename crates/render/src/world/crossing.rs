@@ -24,7 +24,7 @@ const BEFORE: f32 = 4.0;
 pub(crate) struct Crossing {
     /// The things it leaves behind.
     things: [Thing; MOST],
-    count: usize,
+    count: u32,
     /// The surface crossed last.
     at: SurfacePoint,
     /// Origin behind it.
@@ -63,10 +63,10 @@ impl PassingRay {
         let before = self.crossing.filter(|crossing| crossing.is_at(&at));
         let (mut things, mut count) =
             before.map_or(([thing; MOST], 0), |crossing| (crossing.things, crossing.count));
-        if count == MOST {
+        if count as usize == MOST {
             return Self::free(behind);
         }
-        things[count] = thing;
+        things[count as usize] = thing;
         count += 1;
         let crossing = Crossing { things, count, at, behind: behind.origin };
         let origin = offset_origin(at.p, BEFORE * at.p_err, at.ng, -dir);
@@ -77,7 +77,7 @@ impl PassingRay {
     #[inline]
     pub(super) fn seen_by(&self, thing: Thing, search: &Ray) -> Ray {
         match &self.crossing {
-            Some(crossing) if crossing.things[..crossing.count].contains(&thing) => {
+            Some(crossing) if crossing.things[..crossing.count as usize].contains(&thing) => {
                 Ray { origin: crossing.behind, ..*search }
             }
             _ => *search,

@@ -42,7 +42,7 @@ use group::{Groups, Look};
 use heliostat_geometry::{Aabb, Ray};
 use heliostat_index::{BspTree, MeshTree, TraversalCost};
 use heliostat_scene::object::Geometry;
-use heliostat_scene::{GroupId, RenderSettings, Rgb, Scene};
+use heliostat_scene::{GroupId, Object, RenderSettings, Rgb, Scene};
 use kinds::{Shadow, parameters_of, shadow_of, visible_lights};
 use level::Level;
 use solid::{Content, Solid, Stock};
@@ -223,22 +223,23 @@ impl<'s> World<'s> {
     #[inline]
     fn meet(&self, look: &Look<'_>, search: &Ray) -> Option<(f32, Met)> {
         let solid = &self.solids[look.solid as usize];
-        let place = solid.place.now(look.time)?;
-        let body = match &solid.content {
-            Content::Body(body) => body,
-            Content::Group(group) => return group.closest(look, search, &place, 0),
-        };
-        let ray = look.passing.seen_by(Thing::whole(look.solid), search);
-        let (t, meeting) = match look.cost {
-            None => body.closest(&place, &ray)?,
-            Some(cost) => {
-                let mut sum = cost.get();
-                let found = body.closest_counted(&place, &ray, &mut sum);
-                cost.set(sum);
-                found?
-            }
-        };
-        Some((t, Met { part: 0, meeting }))
+        solid.place.at(look.time, |place| {
+            let body = match &solid.content {
+                Content::Body(body) => body,
+                Content::Group(group) => return group.closest(look, search, place, 0),
+            };
+            let ray = look.passing.seen_by(Thing::whole(look.solid), search);
+            let (t, meeting) = match look.cost {
+                None => body.closest(place, &ray)?,
+                Some(cost) => {
+                    let mut sum = cost.get();
+                    let found = body.closest_counted(place, &ray, &mut sum);
+                    cost.set(sum);
+                    found?
+                }
+            };
+            Some((t, Met { part: 0, meeting }))
+        })
     }
 
     /// [`World::seen`] for a ray that may run through glass: where the surface of the glass and another one lie in the same
@@ -300,36 +301,48 @@ impl<'s> World<'s> {
         met: Met,
         parameters: Parameters,
     ) -> Option<SurfaceHit> {
-        self.with_thing(Thing { solid, part: met.part }, time, |standing| {
-            let parameters = if parameters == Parameters::Used { parameters } else { standing.parameters };
-            let SurfaceAt { hit, local, slot, color, triangle } =
-                standing.body.surface(standing.place, ray, met.meeting, parameters)?;
-            let owner = match standing.object {
-                Some(object) => Owner::Object { index: solid, material: object.material(slot) },
-                None => Owner::Light(self.shining[solid as usize - self.scene.objects.len()]),
-            };
-            Some(SurfaceHit { hit, owner, part: met.part, local, color, triangle })
+        let (index, solid) = (solid, &self.solids[solid as usize]);
+        solid.place.at(time, |place| match &solid.content {
+            Content::Body(body) => {
+                let found = body.surface(place, ray, met.meeting, parameters)?;
+                Some(self.owned(index, 0, self.scene.objects.get(index as usize), found))
+            }
+            Content::Group(group) => group.with_part(met.part, place, time, &mut |part| {
+                let parameters = if parameters == Parameters::Used { parameters } else { part.parameters };
+                let found = part.body.surface(part.place, ray, met.meeting, parameters)?;
+                Some(self.owned(index, met.part, part.object, found))
+            }),
         })
     }
 
-    /// Shows a thing at a moment to a closure; `None` where it has no place then.
+    /// A surface with its owner.
     #[inline(always)]
+    fn owned(&self, solid: u32, part: u64, object: Option<&Object>, found: SurfaceAt) -> SurfaceHit {
+        let SurfaceAt { hit, local, slot, color, triangle } = found;
+        let owner = match object {
+            Some(object) => Owner::Object { index: solid, material: object.material(slot) },
+            None => Owner::Light(self.shining[solid as usize - self.scene.objects.len()]),
+        };
+        SurfaceHit { hit, owner, part, local, color, triangle }
+    }
+
+    /// Shows a thing at a moment to a closure; `None` where it has no place then.
+    #[inline]
     fn with_thing<T>(
         &self,
         thing: Thing,
         time: f32,
-        look: impl FnOnce(&Standing<'_, 's>) -> Option<T>,
+        mut look: impl FnMut(&Standing<'_, 's>) -> Option<T>,
     ) -> Option<T> {
         let Thing { solid: index, part } = thing;
         let solid = &self.solids[index as usize];
-        let place = &*solid.place.now(time)?;
-        match &solid.content {
+        solid.place.at(time, |place| match &solid.content {
             Content::Body(body) => {
                 let object = self.scene.objects.get(index as usize);
                 look(&Standing { body, place, object, parameters: self.parameters[index as usize] })
             }
-            Content::Group(group) => group.with_part(part, place, time, look),
-        }
+            Content::Group(group) => group.with_part(part, place, time, &mut look),
+        })
     }
 
     /// [`World::with_thing`] for the thing behind a hit; `None` for the surface of a light.
@@ -337,7 +350,7 @@ impl<'s> World<'s> {
         &self,
         hit: &SurfaceHit,
         time: f32,
-        look: impl FnOnce(&Standing<'_, 's>) -> Option<T>,
+        look: impl FnMut(&Standing<'_, 's>) -> Option<T>,
     ) -> Option<T> {
         match hit.owner {
             Owner::Object { index, .. } => {

@@ -52,15 +52,29 @@ impl<'s> Place<'s> {
         }
     }
 
-    /// The map of a moment to world space, where this is a place in a space that `outer` maps there; `None` as in
-    /// [`Place::now`].
-    #[inline]
-    pub(super) fn below<'a>(&'a self, outer: &'a Transform, time: f32) -> Option<Now<'a>> {
+    /// [`Place::now`] shown to a closure: a transform at rest is not moved about.
+    #[inline(always)]
+    pub(super) fn at<T>(&self, time: f32, look: impl FnOnce(&Transform) -> Option<T>) -> Option<T> {
         match self {
-            Self::Still(inner) if inner.is_identity() => Some(Now::Still(outer)),
-            _ if outer.is_identity() => self.now(time),
-            Self::Still(inner) => inner.then(outer).map(Now::Moving),
-            Self::Moving(_) => self.now(time)?.then(outer).map(Now::Moving),
+            Self::Still(transform) => look(transform),
+            Self::Moving(_) => look(&*self.now(time)?),
+        }
+    }
+
+    /// Shows the map of a moment to world space to a closure, where this is a place in a space that `outer` maps there; `None` as
+    /// in [`Place::now`].
+    #[inline]
+    pub(super) fn below<T>(
+        &self,
+        outer: &Transform,
+        time: f32,
+        look: impl FnOnce(&Transform) -> Option<T>,
+    ) -> Option<T> {
+        match self {
+            Self::Still(inner) if inner.is_identity() => look(outer),
+            _ if outer.is_identity() => self.at(time, look),
+            Self::Still(inner) => look(&inner.then(outer)?),
+            Self::Moving(_) => look(&self.now(time)?.then(outer)?),
         }
     }
 

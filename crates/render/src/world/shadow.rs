@@ -73,19 +73,21 @@ impl World<'_> {
     pub(super) fn share_past(&self, solid: u32, ray: &Ray, time: f32) -> Rgb {
         let object = &self.scene.objects[solid as usize];
         let solid = &self.solids[solid as usize];
-        let Some(place) = solid.place.now(time) else { return Rgb::ONE };
         let filter = |object| Filter { scene: self.scene, object, glass: self.glass };
-        match &solid.content {
-            Content::Body(body) => filter(object).share(ray, body, &place),
-            Content::Group(group) => {
-                let mut share = Rgb::ONE;
-                group.each_filter(ray, time, &place, &mut |part| {
-                    if let Some(object) = part.object.filter(|_| share != Rgb::ZERO) {
-                        share *= filter(object).share(ray, part.body, part.place);
-                    }
-                });
-                share
-            }
-        }
+        let share = solid.place.at(time, |place| {
+            let group = match &solid.content {
+                Content::Body(body) => return Some(filter(object).share(ray, body, place)),
+                Content::Group(group) => group,
+            };
+            let mut share = Rgb::ONE;
+            group.each_filter(ray, time, place, &mut |part| {
+                if let Some(object) = part.object.filter(|_| share != Rgb::ZERO) {
+                    share *= filter(object).share(ray, part.body, part.place);
+                }
+            });
+            Some(share)
+        });
+        // Without a place at this moment it stops nothing.
+        share.unwrap_or(Rgb::ONE)
     }
 }

@@ -75,10 +75,13 @@ impl<'s> Solid<'s> {
     /// Whether anything that lets no light through lies in the range of the ray.
     #[inline]
     pub(crate) fn blocks(&self, ray: &Ray, time: f32) -> bool {
-        self.place.now(time).is_some_and(|place| match &self.content {
-            Content::Body(body) => body.blocks(&place, ray),
-            Content::Group(group) => group.blocks(ray, time, &place),
-        })
+        let blocks = self.place.at(time, |place| {
+            Some(match &self.content {
+                Content::Body(body) => body.blocks(place, ray),
+                Content::Group(group) => group.blocks(ray, time, place),
+            })
+        });
+        blocks == Some(true)
     }
 
     /// Which shadow rays meet it.

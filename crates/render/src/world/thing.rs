@@ -4,7 +4,8 @@ use super::body::{Body, Meeting, Parameters};
 use heliostat_geometry::Transform;
 use heliostat_scene::Object;
 
-/// One thing in the world.
+/// One thing in the world. Packed, because rays carry several.
+#[repr(C, packed(4))]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Thing {
     /// Index into the solids.

@@ -14,7 +14,7 @@ const FEW: usize = 8;
 const MANY: usize = 1 << 16;
 
 /// How such a tree is built.
-const COMPACT: BuildParams = BuildParams { max_duplication: 1.5, ..BuildParams::BALANCED };
+const COMPACT: BuildParams = BuildParams { max_duplication: 2.0, ..BuildParams::BALANCED };
 
 /// An index over boxes in the space of a group. It keeps no boxes where there are many, so that a copy takes little more than
 /// its transform.

@@ -77,7 +77,7 @@ impl<'s> Chain<'s> {
 
     fn at(&self, time: f32) -> Option<Transform> {
         self.links.iter().try_fold(Transform::IDENTITY, |outer, link| match link {
-            Link::Place(place) => place.below(&outer, time).map(|now| *now),
+            Link::Place(place) => place.below(&outer, time, |now| Some(*now)),
             Link::Copy(copy) => Transform::new(outer.matrix() * **copy),
         })
     }

@@ -19,7 +19,7 @@ pub(super) use walk::Look;
 
 use super::body::Parameters;
 use super::kinds::{Shadow, parameters_of, shadow_of};
-use super::place::{Now, Place};
+use super::place::Place;
 use super::solid::{Content, Stock};
 use super::thing::Standing;
 use boxes::BoxIndex;
@@ -171,30 +171,35 @@ impl<'s> PreparedGroup<'s> {
         number: u64,
         place: &Transform,
         time: f32,
-        look: impl FnOnce(&Standing<'_, 's>) -> Option<T>,
+        look: &mut dyn FnMut(&Standing<'_, 's>) -> Option<T>,
     ) -> Option<T> {
         let copy = usize::try_from(number / self.parts).ok()?;
         let number = number % self.parts;
-        let place = &*self.copy(copy, place)?;
-        let index = self.members.partition_point(|member| member.first <= number) - 1;
-        let member = &self.members[index];
-        let place = &*member.place.below(place, time)?;
-        match &member.content {
-            Content::Body(body) => {
-                let (object, parameters) = (Some(member.object), member.parameters);
-                look(&Standing { body, place, object, parameters })
-            }
-            Content::Group(group) => group.with_part(number - member.first, place, time, look),
-        }
+        self.at_copy(copy, place, |place| {
+            let index = self.members.partition_point(|member| member.first <= number) - 1;
+            let member = &self.members[index];
+            member.place.below(place, time, |place| match &member.content {
+                Content::Body(body) => {
+                    let (object, parameters) = (Some(member.object), member.parameters);
+                    look(&Standing { body, place, object, parameters })
+                }
+                Content::Group(group) => group.with_part(number - member.first, place, time, look),
+            })
+        })
     }
 
-    /// The map from the space of the objects of a copy to world space, where `place` is that of the group.
+    /// Shows the map from the space of the objects of a copy to world space to a closure, where `place` is that of the group.
     #[inline]
-    fn copy<'a>(&self, index: usize, place: &'a Transform) -> Option<Now<'a>> {
+    fn at_copy<T>(
+        &self,
+        index: usize,
+        place: &Transform,
+        look: impl FnOnce(&Transform) -> Option<T>,
+    ) -> Option<T> {
         let copy = *self.group.places.get(index)?;
         if copy == DAffine3::IDENTITY {
-            return Some(Now::Still(place));
+            return look(place);
         }
-        Transform::new(place.matrix() * copy).map(Now::Moving)
+        look(&Transform::new(place.matrix() * copy)?)
     }
 }

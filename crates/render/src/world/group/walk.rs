@@ -34,12 +34,12 @@ impl<'s> PreparedGroup<'s> {
         first: u64,
     ) -> Option<(f32, Met)> {
         if self.group.places.len() == 1 {
-            return self.closest_in(look, search, &*self.copy(0, place)?, first);
+            return self.at_copy(0, place, |place| self.closest_in(look, search, place, first));
         }
         let found = self.copies.closest(&place.ray_to_local(search), look.cost, |copy, local| {
             let search = Ray { range: local.range, ..*search };
-            let place = self.copy(copy as usize, place)?;
-            self.closest_in(look, &search, &place, first + u64::from(copy) * self.parts)
+            let first = first + u64::from(copy) * self.parts;
+            self.at_copy(copy as usize, place, |place| self.closest_in(look, &search, place, first))
         })?;
         Some((found.t, found.data))
     }
@@ -58,19 +58,18 @@ impl<'s> PreparedGroup<'s> {
 
     /// Whether anything that lets no light through lies in the range of the ray.
     pub(in super::super) fn blocks(&self, ray: &Ray, time: f32, place: &Transform) -> bool {
-        let in_copy = |place: &Transform| {
+        let in_place = |place: &Transform| {
             if let [member] = self.members.as_slice() {
                 return member.blocks(ray, time, place);
             }
             self.inside
                 .any(&place.ray_to_local(ray), |i, _| self.members[i as usize].blocks(ray, time, place))
         };
+        let in_copy = |copy| self.at_copy(copy, place, |place| in_place(place).then_some(())).is_some();
         if self.group.places.len() == 1 {
-            return self.copy(0, place).is_some_and(|place| in_copy(&place));
+            return in_copy(0);
         }
-        self.copies.any(&place.ray_to_local(ray), |copy, _| {
-            self.copy(copy as usize, place).is_some_and(|place| in_copy(&place))
-        })
+        self.copies.any(&place.ray_to_local(ray), |copy, _| in_copy(copy as usize))
     }
 
     /// Visits every thing that lets a part of the light through and may lie in the range of the ray.
@@ -82,9 +81,12 @@ impl<'s> PreparedGroup<'s> {
         visit: &mut dyn FnMut(&Standing<'_, 's>),
     ) {
         self.copies.each(&place.ray_to_local(ray), |copy| {
-            let Some(place) = self.copy(copy as usize, place) else { return };
-            self.inside.each(&place.ray_to_local(ray), |i| {
-                self.members[i as usize].each_filter(ray, time, &place, visit);
+            // A copy without a place filters nothing.
+            let _ = self.at_copy(copy as usize, place, |place| {
+                self.inside.each(&place.ray_to_local(ray), |i| {
+                    self.members[i as usize].each_filter(ray, time, place, visit);
+                });
+                Some(())
             });
         });
     }
@@ -96,44 +98,48 @@ impl<'s> Member<'s> {
         if look.camera && !self.object.visible {
             return None;
         }
-        let place = self.place.below(place, look.time)?;
         let part = first + self.first;
-        let body = match &self.content {
-            Content::Body(body) => body,
-            Content::Group(group) => return group.closest(look, search, &place, part),
-        };
-        let ray = look.passing.seen_by(Thing { solid: look.solid, part }, search);
-        let (t, meeting) = match look.cost {
-            None => body.closest(&place, &ray)?,
-            Some(cost) => {
-                let mut below = TraversalCost::default();
-                let found = body.closest_counted(&place, &ray, &mut below);
-                add(cost, below);
-                found?
-            }
-        };
-        Some((t, Met { part, meeting }))
+        self.place.below(place, look.time, |place| {
+            let body = match &self.content {
+                Content::Body(body) => body,
+                Content::Group(group) => return group.closest(look, search, place, part),
+            };
+            let ray = look.passing.seen_by(Thing { solid: look.solid, part }, search);
+            let (t, meeting) = match look.cost {
+                None => body.closest(place, &ray)?,
+                Some(cost) => {
+                    let mut below = TraversalCost::default();
+                    let found = body.closest_counted(place, &ray, &mut below);
+                    add(cost, below);
+                    found?
+                }
+            };
+            Some((t, Met { part, meeting }))
+        })
     }
 
     fn blocks(&self, ray: &Ray, time: f32, place: &Transform) -> bool {
-        self.shadow.stops
-            && self.place.below(place, time).is_some_and(|place| match &self.content {
-                Content::Body(body) => body.blocks(&place, ray),
-                Content::Group(group) => group.blocks(ray, time, &place),
-            })
+        let blocks = |place: &Transform| match &self.content {
+            Content::Body(body) => body.blocks(place, ray),
+            Content::Group(group) => group.blocks(ray, time, place),
+        };
+        self.shadow.stops && self.place.below(place, time, |place| blocks(place).then_some(())).is_some()
     }
 
     fn each_filter(&self, ray: &Ray, time: f32, place: &Transform, visit: &mut dyn FnMut(&Standing<'_, 's>)) {
         if !self.shadow.filters {
             return;
         }
-        let Some(place) = self.place.below(place, time) else { return };
-        match &self.content {
-            Content::Body(body) => {
-                let (object, parameters) = (Some(self.object), self.parameters);
-                visit(&Standing { body, place: &place, object, parameters });
+        // What has no place at this moment filters nothing.
+        let _ = self.place.below(place, time, |place| {
+            match &self.content {
+                Content::Body(body) => {
+                    let (object, parameters) = (Some(self.object), self.parameters);
+                    visit(&Standing { body, place, object, parameters });
+                }
+                Content::Group(group) => group.each_filter(ray, time, place, visit),
             }
-            Content::Group(group) => group.each_filter(ray, time, &place, visit),
-        }
+            Some(())
+        });
     }
 }
