@@ -12,8 +12,9 @@ use glam::DAffine3;
 /// use glam::{DAffine3, DVec3};
 /// use heliostat_geometry::shape::{Shape, Sphere};
 /// use heliostat_geometry::Transform;
+/// use heliostat_scene::material::Phong;
 /// use heliostat_scene::object::Geometry;
-/// use heliostat_scene::{Census, Group, GroupId, MaterialId, Motion, Object, Scene};
+/// use heliostat_scene::{Census, Group, GroupId, Material, MaterialId, Motion, Object, Scene};
 ///
 /// let object = |name: &str, geometry, materials| Object {
 ///     name: name.into(),
@@ -36,7 +37,8 @@ use glam::DAffine3;
 ///     objects: vec![object("balls", Geometry::Group(GroupId(0)), vec![])],
 ///     places: row(DVec3::Z),
 /// };
-/// let scene = Scene { groups: vec![balls, rows], ..Scene::default() };
+/// let materials = vec![Material::new("grey", Phong::default())];
+/// let scene = Scene { materials, groups: vec![balls, rows], ..Scene::default() };
 /// let census = Census::new(&scene).unwrap();
 /// assert_eq!(census.group(GroupId(1)).parts, 1_000_000);
 /// ```

@@ -223,23 +223,23 @@ impl<'s> World<'s> {
     #[inline]
     fn meet(&self, look: &Look<'_>, search: &Ray) -> Option<(f32, Met)> {
         let solid = &self.solids[look.solid as usize];
-        solid.place.at(look.time, |place| {
-            let body = match &solid.content {
-                Content::Body(body) => body,
-                Content::Group(group) => return group.closest(look, search, place, 0),
-            };
-            let ray = look.passing.seen_by(Thing::whole(look.solid), search);
-            let (t, meeting) = match look.cost {
-                None => body.closest(place, &ray)?,
-                Some(cost) => {
-                    let mut sum = cost.get();
-                    let found = body.closest_counted(place, &ray, &mut sum);
-                    cost.set(sum);
-                    found?
-                }
-            };
-            Some((t, Met { part: 0, meeting }))
-        })
+        let mut room = None;
+        let place = solid.place.at(look.time, &mut room)?;
+        let body = match &solid.content {
+            Content::Body(body) => body,
+            Content::Group(group) => return group.closest(look, search, place, 0),
+        };
+        let ray = look.passing.seen_by(Thing::whole(look.solid), search);
+        let (t, meeting) = match look.cost {
+            None => body.closest(place, &ray)?,
+            Some(cost) => {
+                let mut sum = cost.get();
+                let found = body.closest_counted(place, &ray, &mut sum);
+                cost.set(sum);
+                found?
+            }
+        };
+        Some((t, Met { part: 0, meeting }))
     }
 
     /// [`World::seen`] for a ray that may run through glass: where the surface of the glass and another one lie in the same
@@ -302,7 +302,9 @@ impl<'s> World<'s> {
         parameters: Parameters,
     ) -> Option<SurfaceHit> {
         let (index, solid) = (solid, &self.solids[solid as usize]);
-        solid.place.at(time, |place| match &solid.content {
+        let mut room = None;
+        let place = solid.place.at(time, &mut room)?;
+        match &solid.content {
             Content::Body(body) => {
                 let found = body.surface(place, ray, met.meeting, parameters)?;
                 Some(self.owned(index, 0, self.scene.objects.get(index as usize), found))
@@ -312,7 +314,7 @@ impl<'s> World<'s> {
                 let found = part.body.surface(part.place, ray, met.meeting, parameters)?;
                 Some(self.owned(index, met.part, part.object, found))
             }),
-        })
+        }
     }
 
     /// A surface with its owner.
@@ -336,13 +338,15 @@ impl<'s> World<'s> {
     ) -> Option<T> {
         let Thing { solid: index, part } = thing;
         let solid = &self.solids[index as usize];
-        solid.place.at(time, |place| match &solid.content {
+        let mut room = None;
+        let place = solid.place.at(time, &mut room)?;
+        match &solid.content {
             Content::Body(body) => {
                 let object = self.scene.objects.get(index as usize);
                 look(&Standing { body, place, object, parameters: self.parameters[index as usize] })
             }
             Content::Group(group) => group.with_part(part, place, time, &mut look),
-        })
+        }
     }
 
     /// [`World::with_thing`] for the thing behind a hit; `None` for the surface of a light.

@@ -45,19 +45,16 @@ impl<'s> Place<'s> {
     pub(crate) fn now(&self, time: f32) -> Option<Now<'s>> {
         match self {
             Self::Still(transform) => Some(Now::Still(transform)),
-            Self::Moving(motion) => {
-                let (before, after, weight) = motion.around(time);
-                before.lerp(after, weight).map(Now::Moving)
-            }
+            Self::Moving(motion) => between(motion, time).map(Now::Moving),
         }
     }
 
-    /// [`Place::now`] shown to a closure: a transform at rest is not moved about.
-    #[inline(always)]
-    pub(super) fn at<T>(&self, time: f32, look: impl FnOnce(&Transform) -> Option<T>) -> Option<T> {
+    /// [`Place::now`], in `room` only if it moves: a transform at rest is not moved about.
+    #[inline]
+    pub(super) fn at<'a>(&'a self, time: f32, room: &'a mut Option<Transform>) -> Option<&'a Transform> {
         match self {
-            Self::Still(transform) => look(transform),
-            Self::Moving(_) => look(&*self.now(time)?),
+            Self::Still(transform) => Some(transform),
+            Self::Moving(motion) => Some(room.insert(between(motion, time)?)),
         }
     }
 
@@ -72,9 +69,9 @@ impl<'s> Place<'s> {
     ) -> Option<T> {
         match self {
             Self::Still(inner) if inner.is_identity() => look(outer),
-            _ if outer.is_identity() => self.at(time, look),
+            _ if outer.is_identity() => look(self.at(time, &mut None)?),
             Self::Still(inner) => look(&inner.then(outer)?),
-            Self::Moving(_) => look(&self.now(time)?.then(outer)?),
+            Self::Moving(motion) => look(&between(motion, time)?.then(outer)?),
         }
     }
 
@@ -85,4 +82,10 @@ impl<'s> Place<'s> {
             Self::Moving(motion) => motion.bounds(local),
         }
     }
+}
+
+/// The transform of a moment; `None` where it has no inverse.
+fn between(motion: &Motion, time: f32) -> Option<Transform> {
+    let (before, after, weight) = motion.around(time);
+    before.lerp(after, weight)
 }

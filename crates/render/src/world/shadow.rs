@@ -74,20 +74,20 @@ impl World<'_> {
         let object = &self.scene.objects[solid as usize];
         let solid = &self.solids[solid as usize];
         let filter = |object| Filter { scene: self.scene, object, glass: self.glass };
-        let share = solid.place.at(time, |place| {
-            let group = match &solid.content {
-                Content::Body(body) => return Some(filter(object).share(ray, body, place)),
-                Content::Group(group) => group,
-            };
-            let mut share = Rgb::ONE;
-            group.each_filter(ray, time, place, &mut |part| {
-                if let Some(object) = part.object.filter(|_| share != Rgb::ZERO) {
-                    share *= filter(object).share(ray, part.body, part.place);
-                }
-            });
-            Some(share)
-        });
+        let mut room = None;
         // Without a place at this moment it stops nothing.
-        share.unwrap_or(Rgb::ONE)
+        let Some(place) = solid.place.at(time, &mut room) else { return Rgb::ONE };
+        match &solid.content {
+            Content::Body(body) => filter(object).share(ray, body, place),
+            Content::Group(group) => {
+                let mut share = Rgb::ONE;
+                group.each_filter(ray, time, place, &mut |part| {
+                    if let Some(object) = part.object.filter(|_| share != Rgb::ZERO) {
+                        share *= filter(object).share(ray, part.body, part.place);
+                    }
+                });
+                share
+            }
+        }
     }
 }

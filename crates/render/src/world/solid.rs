@@ -75,13 +75,11 @@ impl<'s> Solid<'s> {
     /// Whether anything that lets no light through lies in the range of the ray.
     #[inline]
     pub(crate) fn blocks(&self, ray: &Ray, time: f32) -> bool {
-        let blocks = self.place.at(time, |place| {
-            Some(match &self.content {
-                Content::Body(body) => body.blocks(place, ray),
-                Content::Group(group) => group.blocks(ray, time, place),
-            })
-        });
-        blocks == Some(true)
+        let mut room = None;
+        self.place.at(time, &mut room).is_some_and(|place| match &self.content {
+            Content::Body(body) => body.blocks(place, ray),
+            Content::Group(group) => group.blocks(ray, time, place),
+        })
     }
 
     /// Which shadow rays meet it.
