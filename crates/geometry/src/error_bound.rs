@@ -62,6 +62,15 @@ pub fn projection(reach: Vec3, axis: Vec3) -> f32 {
     gamma(16) * reach.dot(axis.abs()) + f32::MIN_POSITIVE
 }
 
+/// By how much, per axis, a box grows whose content is met by rays that were mapped into its space, where `reach` is the
+/// largest magnitude of its coordinates.
+///
+/// The origin of such a ray is rounded once more, in proportion to its own coordinates: as far as these are those of the
+/// box, this holds it, and as far as it lies away from the box, [`cell_padding`] does.
+pub fn mapped_ray(reach: f32) -> f32 {
+    gamma(8) * reach
+}
+
 /// Bound of the rounding of `p`, a point computed in `f64` and rounded once, that a ray will see again in the
 /// space of its object.
 ///

@@ -36,7 +36,8 @@ pub struct PhaseSeconds {
 /// An index and what it is over.
 #[derive(Clone, Debug)]
 pub struct IndexStats {
-    /// `scene` for the index over the objects, `mesh` and its index for one over triangles.
+    /// `scene` for the index over the objects, `group`, its index and its name for one over the objects of a group, the same
+    /// and `copies` for one over its copies, `mesh` and its index for one over triangles.
     pub name: String,
     /// Its numbers.
     pub tree: TreeStats,
@@ -99,7 +100,7 @@ impl RenderStats {
     }
 }
 
-/// Every tree of a world once, the one over the objects first.
+/// Every tree of a world once, the one over the objects first, then those of groups.
 fn index_stats(world: &World<'_>) -> Vec<IndexStats> {
     let objects = world.object_tree().map(|tree| IndexStats { name: "scene".to_owned(), tree: tree.stats() });
     let trees = world.mesh_trees();
@@ -107,7 +108,13 @@ fn index_stats(world: &World<'_>) -> Vec<IndexStats> {
     let meshes = (0..trees.len())
         .filter(|&i| is_first(i))
         .map(|i| IndexStats { name: format!("mesh {i}"), tree: trees[i].stats() });
-    objects.into_iter().chain(meshes).collect()
+    let groups = world.groups().iter().enumerate().flat_map(|(i, group)| {
+        let name = format!("group {i} ({})", group.group().name);
+        let (inside, copies) = group.trees();
+        let copies = copies.map(|tree| IndexStats { name: format!("{name}, copies"), tree: tree.stats() });
+        inside.map(|tree| IndexStats { name, tree: tree.stats() }).into_iter().chain(copies)
+    });
+    objects.into_iter().chain(groups).chain(meshes).collect()
 }
 
 /// The result of `work` and the seconds it took.

@@ -27,3 +27,7 @@ id!(
     /// Index into [`crate::Scene::textures`].
     TextureId
 );
+id!(
+    /// Index into [`crate::Scene::groups`].
+    GroupId
+);

@@ -7,8 +7,11 @@
 //! Units and axes are those of [`heliostat_geometry`]. Colours are linear Rec.709 ([`Rgb`]).
 
 pub mod camera;
+pub mod census;
 pub mod color;
 pub mod frame;
+pub mod group;
+pub mod group_boxes;
 pub mod ids;
 pub mod image;
 pub mod light;
@@ -21,9 +24,12 @@ pub mod texture;
 pub mod validate;
 
 pub use camera::Camera;
+pub use census::Census;
 pub use color::Rgb;
 pub use frame::Frame;
-pub use ids::{MaterialId, MeshId, TextureId};
+pub use group::Group;
+pub use group_boxes::GroupBoxes;
+pub use ids::{GroupId, MaterialId, MeshId, TextureId};
 pub use image::Image;
 pub use light::Light;
 pub use material::Material;

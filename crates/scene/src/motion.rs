@@ -1,6 +1,6 @@
 //! Things that move while the shutter is open.
 
-use heliostat_geometry::Transform;
+use heliostat_geometry::{Aabb, Transform};
 
 /// Evenly spaced poses over the shutter, the first at its opening and the last at its closing.
 ///
@@ -45,5 +45,15 @@ impl<T> Motion<T> {
         let first = (position as usize).min(segments.saturating_sub(1));
         let second = (first + 1).min(segments);
         (&self.poses[first], &self.poses[second], position - first as f32)
+    }
+}
+
+impl Motion<Transform> {
+    /// The box, over the whole shutter, of what has the box `local` before it is moved.
+    ///
+    /// Points move on straight lines between two poses, so the boxes at the poses bound all that lies between. It holds as
+    /// well for what moves inside `local` meanwhile.
+    pub fn bounds(&self, local: Aabb) -> Aabb {
+        self.poses.iter().fold(Aabb::EMPTY, |around, pose| around.union(pose.bounds(local)))
     }
 }

@@ -1,6 +1,6 @@
 //! Objects: a geometry with materials at a place.
 
-use crate::ids::{MaterialId, MeshId};
+use crate::ids::{GroupId, MaterialId, MeshId};
 use crate::motion::Motion;
 use heliostat_geometry::{Shape, Transform};
 
@@ -11,6 +11,8 @@ pub enum Geometry {
     Shape(Shape),
     /// A mesh that objects may share.
     Mesh(MeshId),
+    /// Objects in a space of their own, which objects may share.
+    Group(GroupId),
 }
 
 /// A geometry with materials at a place.
@@ -20,13 +22,14 @@ pub struct Object {
     pub name: String,
     /// The geometry, in local space.
     pub geometry: Geometry,
-    /// One material per slot of the mesh; a shape has slot 0. The last one serves slots beyond the end.
+    /// One material per slot of the mesh; a shape has slot 0. The last one serves slots beyond the end. None for a group,
+    /// whose objects have their own.
     pub materials: Vec<MaterialId>,
-    /// From local to world space over the shutter.
+    /// Over the shutter, from local space to world space, or to that of the group that holds the object.
     pub motion: Motion<Transform>,
-    /// Whether camera rays see it.
+    /// Whether camera rays see it. What a group holds is seen where both it and the group are.
     pub visible: bool,
-    /// Whether it throws shadows.
+    /// Whether it throws shadows; in a group, where the group does too.
     pub casts_shadow: bool,
 }
 

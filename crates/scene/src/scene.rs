@@ -2,6 +2,7 @@
 
 use crate::camera::Camera;
 use crate::color::Rgb;
+use crate::group::Group;
 use crate::light::Light;
 use crate::material::Material;
 use crate::object::Object;
@@ -49,6 +50,8 @@ pub struct Scene {
     pub textures: Vec<Texture>,
     /// Materials, shared by objects.
     pub materials: Vec<Material>,
+    /// Objects that are placed together, shared by objects.
+    pub groups: Vec<Group>,
     /// What is there to see.
     pub objects: Vec<Object>,
     /// What lights it.

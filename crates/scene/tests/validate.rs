@@ -12,7 +12,7 @@ use heliostat_scene::object::{Geometry, Object};
 use heliostat_scene::scene::Background;
 use heliostat_scene::texture::{Filtering, Pattern, Texture, UvTransform, Wrap};
 use heliostat_scene::validate::{ItemKind, Problem};
-use heliostat_scene::{MaterialId, MeshId, Motion, Scene, TextureId};
+use heliostat_scene::{Group, GroupId, MaterialId, MeshId, Motion, Scene, TextureId};
 use std::sync::Arc;
 
 fn scene() -> Scene {
@@ -53,6 +53,7 @@ fn scene() -> Scene {
         meshes: vec![Arc::new(triangle)],
         textures: vec![Texture { name: "wood".to_owned(), pattern, uv: UvTransform::default() }],
         materials: vec![Material::new("red", Phong::default())],
+        groups: vec![Group::once("pair", vec![object("disc", Geometry::Shape(Shape::Plane(Plane)))])],
         objects: vec![
             object("ball", Geometry::Shape(Shape::Sphere(Sphere { radius: 1.0 }))),
             object("leaf", Geometry::Mesh(MeshId(0))),
@@ -226,4 +227,63 @@ fn every_issue_is_told_at_once() {
     scene.objects[0].materials.clear();
     scene.lights[0].samples = 0;
     assert_eq!(scene.validate().map_err(|issues| issues.len()), Err(3));
+}
+
+/// An object that places a group.
+fn placed(name: &str, group: u32) -> Object {
+    Object { materials: vec![], ..object(name, Geometry::Group(GroupId(group))) }
+}
+
+#[test]
+fn groups() {
+    broken("group `pair`: the group holds no objects", |s| s.groups[0].objects.clear());
+    broken("group `pair`: the group has no place to stand", |s| s.groups[0].places.clear());
+    broken("group `pair`: the transform of copy 1 has no inverse", |s| {
+        s.groups[0].places.push(DAffine3::ZERO);
+    });
+    broken("object `pair/disc`: material 7 does not exist, there are 1", |s| {
+        s.groups[0].objects[0].materials = vec![MaterialId(7)];
+    });
+    broken("object `ball`: group 1 does not exist, there are 1", |s| s.objects[0] = placed("ball", 1));
+    broken("object `ball`: a group takes no material: the objects that it holds have their own", |s| {
+        s.objects[0].geometry = Geometry::Group(GroupId(0));
+    });
+    broken("light `key`: a group cannot be an area light", |s| {
+        let LightKind::Area { geometry, .. } = &mut s.lights[0].kind else { panic!() };
+        *geometry = Geometry::Group(GroupId(0));
+    });
+}
+
+#[test]
+fn groups_in_groups() {
+    broken("group `pair`: the group holds itself", |s| s.groups[0].objects.push(placed("again", 0)));
+    broken("group `pair`: the group holds itself", |s| {
+        s.groups[0].objects.push(placed("other", 1));
+        s.groups.push(Group::once("other", vec![placed("pair", 0)]));
+    });
+    let chain = |s: &mut Scene, length: u32| {
+        (1..length)
+            .for_each(|i| s.groups.push(Group::once(format!("group {i}"), vec![placed("inner", i - 1)])));
+    };
+    let mut deep = scene();
+    chain(&mut deep, Group::MAX_DEPTH);
+    deep.validate().expect("as deep as may be");
+    broken("group `group 16`: groups lie in one another more than 16 deep", |s| chain(s, 17));
+    // Backwards, so that the deepest is looked at first.
+    broken("group `pair`: groups lie in one another more than 16 deep", |s| {
+        chain(s, 17);
+        s.groups.reverse();
+        let last = s.groups.len() as u32 - 1;
+        for group in &mut s.groups {
+            for object in group.objects.iter_mut().filter(|o| matches!(o.geometry, Geometry::Group(_))) {
+                let Geometry::Group(id) = &mut object.geometry else { unreachable!() };
+                id.0 = last - id.0;
+            }
+        }
+    });
+    // 2^80 things are more than there are numbers, and are counted in no time.
+    broken("group `group 12`: the group holds more parts than can be numbered", |s| {
+        chain(s, 16);
+        s.groups.iter_mut().for_each(|group| group.places = vec![DAffine3::IDENTITY; 32]);
+    });
 }

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 /// Tables in the order in which one writes a scene; any others follow.
-const ORDER: [&str; 12] = [
+const ORDER: [&str; 13] = [
     "render",
     "output",
     "time",
@@ -18,6 +18,7 @@ const ORDER: [&str; 12] = [
     "mesh",
     "model",
     "object",
+    "group",
     "light",
     "animation",
 ];
@@ -51,7 +52,9 @@ impl<'s> Writer<'s> {
             "\n### `{many}`\n\n{}\n\n| key | value | meaning |\n|---|---|---|\n",
             meaning(value)
         );
-        if let Some((_, keys)) = self.keys(value) {
+        if let Some((name, keys)) = self.keys(value) {
+            // The objects of groups are told as objects.
+            self.told.insert(name);
             self.rows("", keys);
         }
     }

@@ -29,7 +29,7 @@ pub(crate) struct IndexArgs {
     #[arg(long, value_name = "OBJ")]
     pub(crate) export: Option<PathBuf>,
 
-    /// Which tree is exported: `objects`, or the number of a mesh (from 0) [default: 0 if there is one mesh, else objects]
+    /// Which tree is exported: `objects`, the number of a mesh (from 0), or `group=N` or `copies=N` for those over the objects or the copies of a group [default: 0 if there is one mesh, else objects]
     #[arg(long, value_name = "TREE", value_parser = value::tree, requires = "export")]
     pub(crate) tree: Option<value::Tree>,
 

@@ -130,17 +130,25 @@ pub(crate) enum Tree {
     Objects,
     /// Over the triangles of a mesh.
     Mesh(usize),
+    /// Over the objects of a group.
+    Group(usize),
+    /// Over the copies of a group.
+    Copies(usize),
 }
 
-/// `objects` or the number of a mesh.
+/// `objects`, the number of a mesh, or `group=` or `copies=` and the number of a group.
 pub(crate) fn tree(text: &str) -> Result<Tree, String> {
-    match text {
-        "objects" => Ok(Tree::Objects),
-        _ => text
-            .parse()
-            .map(Tree::Mesh)
-            .map_err(|_| "write `objects`, or the number of a mesh, from 0".into()),
-    }
+    let number = |text: &str, tree: fn(usize) -> Tree| text.parse().ok().map(tree);
+    let tree = match text.split_once('=') {
+        Some(("group", text)) => number(text, Tree::Group),
+        Some(("copies", text)) => number(text, Tree::Copies),
+        None if text == "objects" => Some(Tree::Objects),
+        _ => number(text, Tree::Mesh),
+    };
+    tree.ok_or_else(|| {
+        "write `objects`, the number of a mesh, from 0, or `group=` or `copies=` and the number of a group"
+            .into()
+    })
 }
 
 /// The nodes of a tree whose boxes are exported.

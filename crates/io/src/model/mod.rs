@@ -117,7 +117,7 @@ fn shaded_areas(scene: &Scene) -> impl Iterator<Item = (&Material, [Vec3; 3], DV
     scene.objects.iter().flat_map(move |object| {
         let mesh = match object.geometry {
             Geometry::Mesh(id) => scene.meshes.get(id.index()),
-            Geometry::Shape(_) => None,
+            Geometry::Shape(_) | Geometry::Group(_) => None,
         };
         mesh.into_iter().flat_map(move |mesh| {
             (0..).zip(doubled_areas(mesh)).map(move |(i, (corners, area))| {

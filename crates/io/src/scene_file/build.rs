@@ -2,6 +2,7 @@
 
 use super::assets::{Assets, LoadedModel, Trouble};
 use super::environment::EnvironmentTable;
+use super::groups::Made;
 use super::light::LightTable;
 use super::mesh::ModelTable;
 use super::motion::{Motions, PixelSize};
@@ -19,9 +20,7 @@ use heliostat_scene::light::LightKind;
 use heliostat_scene::material::Phong;
 use heliostat_scene::object::Geometry;
 use heliostat_scene::scene::Background;
-use heliostat_scene::{
-    Camera, Light, Material, MaterialId, MeshId, Motion, Object, RenderSettings, Rgb, Scene,
-};
+use heliostat_scene::{Camera, Light, Material, MaterialId, MeshId, Motion, RenderSettings, Rgb, Scene};
 use std::sync::Arc;
 
 /// Name of the material of objects that name none.
@@ -66,7 +65,9 @@ pub(crate) fn build(
     builder.materials()?;
     let meshes = builder.meshes()?;
     let models = builder.models()?;
-    let boxes = builder.boxes(&meshes, &models)?;
+    builder.groups()?;
+    let made = builder.made_objects()?;
+    let boxes = builder.boxes(&made, &meshes, &models)?;
     let cast = Cast { directory: &directory, boxes };
     let stage = cast.stage(file)?;
     let targets = cast.targets(&stage.things);
@@ -74,8 +75,10 @@ pub(crate) fn build(
     let settings = file.render.settings(builder.chosen_camera()?)?;
     let motions = builder.motions(&cast, &stage, file_at, &settings)?;
     builder.move_cameras(motions.cameras);
-    let (objects, placed_models) = motions.things.split_at(file.object.len());
-    builder.objects(objects)?;
+    let (objects, rest) = motions.things.split_at(file.object.len());
+    let (placed_models, members) = rest.split_at(file.model.len());
+    builder.objects(made, objects);
+    builder.move_members(members);
     builder.place_models(&models, placed_models)?;
     builder.lights(&targets)?;
     builder.background()?;
@@ -94,12 +97,12 @@ fn warn(warnings: &mut Vec<Warning>, new: &[Warning]) {
 /// Magenta: what stands for an image that could not be read.
 const MISSING: Rgb = Rgb::new(1.0, 0.0, 1.0);
 
-struct Builder<'a> {
-    file: &'a SceneFile,
-    directory: &'a Directory,
+pub(super) struct Builder<'a> {
+    pub(super) file: &'a SceneFile,
+    pub(super) directory: &'a Directory,
     sources: &'a Sources,
     assets: &'a mut Assets,
-    scene: Scene,
+    pub(super) scene: Scene,
     warnings: Vec<Warning>,
 }
 
@@ -137,17 +140,20 @@ impl Builder<'_> {
         Ok(models)
     }
 
-    /// The boxes of objects and models in local space.
-    fn boxes(&self, meshes: &[Aabb], models: &[Arc<LoadedModel>]) -> Result<Vec<Aabb>, Fault> {
-        let objects = self.file.object.iter().map(|object| {
-            let keys = object.shape_keys();
-            Ok(match (keys.shape()?, keys.mesh) {
-                (Some(shape), _) => shape.geometry().bounds(),
-                (None, Some(name)) => meshes[self.directory.meshes.find(name)?],
-                (None, None) => Aabb::EMPTY,
-            })
+    /// The boxes of objects, models and objects of groups in local space.
+    fn boxes(
+        &self,
+        objects: &[Made],
+        meshes: &[Aabb],
+        models: &[Arc<LoadedModel>],
+    ) -> Result<Vec<Aabb>, Fault> {
+        let groups = self.group_boxes(objects)?;
+        let objects = objects.iter().map(|made| match &made.geometry {
+            Geometry::Mesh(id) => meshes[id.index()],
+            other => groups.geometry(&self.scene, other),
         });
-        objects.chain(models.iter().map(|loaded| Ok(loaded.bounds))).collect()
+        let models = models.iter().map(|loaded| loaded.bounds);
+        Ok(objects.chain(models).chain(self.member_boxes(&groups)).collect())
     }
 
     fn cameras(&mut self, stage: &Stage, targets: &Targets<'_>) -> Result<(), Fault> {
@@ -187,24 +193,20 @@ impl Builder<'_> {
         }
     }
 
-    fn objects(&mut self, motions: &[Motion<Transform>]) -> Result<(), Fault> {
-        for (i, (object, motion)) in self.file.object.iter().zip(motions).enumerate() {
-            let keys = object.shape_keys();
-            let geometry = self.geometry(keys.shape()?, keys.mesh)?;
-            let materials = self.materials_of(object, &geometry)?;
-            self.scene.objects.push(Object {
-                name: self.directory.things.name(i).to_owned(),
-                geometry,
-                materials,
-                motion: motion.clone(),
-                visible: object.visible.unwrap_or(true),
-                casts_shadow: object.casts_shadow.unwrap_or(true),
-            });
-        }
-        Ok(())
+    fn made_objects(&mut self) -> Result<Vec<Made>, Fault> {
+        let file = self.file;
+        let objects = file.object.iter().enumerate();
+        objects.map(|(i, object)| self.made(object, self.directory.things.name(i))).collect()
     }
 
-    fn geometry(
+    fn objects(&mut self, made: Vec<Made>, motions: &[Motion<Transform>]) {
+        for (i, (made, motion)) in made.into_iter().zip(motions).enumerate() {
+            let name = self.directory.things.name(i);
+            self.scene.objects.push(made.object(&self.file.object[i], name, motion.clone()));
+        }
+    }
+
+    pub(super) fn geometry(
         &self,
         shape: Option<heliostat_geometry::Shape>,
         mesh: Option<&Placed<String>>,
@@ -217,7 +219,11 @@ impl Builder<'_> {
         }
     }
 
-    fn materials_of(&mut self, object: &ObjectTable, geometry: &Geometry) -> Result<Vec<MaterialId>, Fault> {
+    pub(super) fn materials_of(
+        &mut self,
+        object: &ObjectTable,
+        geometry: &Geometry,
+    ) -> Result<Vec<MaterialId>, Fault> {
         let named = object.material_indices(&self.directory.materials)?;
         if named.is_empty() {
             return Ok(vec![self.default_material()]);
@@ -237,7 +243,7 @@ impl Builder<'_> {
     /// How many materials a geometry can have.
     fn slots(&self, geometry: &Geometry) -> usize {
         match geometry {
-            Geometry::Shape(_) => 1,
+            Geometry::Shape(_) | Geometry::Group(_) => 1,
             Geometry::Mesh(id) => {
                 let slots = &self.scene.meshes[id.index()].slots;
                 1 + slots.iter().copied().max().map_or(0, usize::from)

@@ -1,7 +1,7 @@
 //! Setting one value of a document by its path: what keyframes and `--set` have in common.
 //!
-//! A path is a section, the name of one of its tables where it has several, and keys; an index, or `x`, `y`, `z`,
-//! picks a component of an array. A number that stands for an array (`scale = 2`, a grey) becomes that array when
+//! A path is a section, the name of one of its tables where it has several, and keys (for an object of a group
+//! `group.NAME.object.NAME` and keys); an index, or `x`, `y`, `z`, picks a component of an array. A number that stands for an array (`scale = 2`, a grey) becomes that array when
 //! a component of it is set, and so does a `translate`, `rotate`, `scale`, `position` or `up` that was left out.
 
 use super::names::implicit_name;
@@ -9,7 +9,7 @@ use crate::document::{Fault, Key, Node, Segment, Span, Table, Value};
 use crate::error::quote;
 
 /// Sections that hold several named tables.
-const LISTS: [&str; 6] = ["texture", "material", "mesh", "model", "object", "light"];
+const LISTS: [&str; 7] = ["texture", "material", "mesh", "model", "object", "group", "light"];
 
 /// Puts `value` at `path`.
 ///
@@ -29,7 +29,7 @@ pub(crate) fn set(root: &mut Node, path: &[Segment], value: Node) -> Result<(), 
     let node = sections.entry(key(section), || empty_table(section.span));
     let editor = Editor { section: &section.text, path };
     if let Value::Array(tables) = &mut node.value {
-        return editor.set_in_list(tables, value);
+        return editor.set_in_list(tables, 1, value);
     }
     let start = if names_single_camera(path, node) { 2 } else { 1 };
     editor.set_in(node, start, value)
@@ -47,27 +47,28 @@ struct Editor<'a> {
 }
 
 impl Editor<'_> {
-    /// Goes on in the table of a list that the second part names.
-    fn set_in_list(&self, tables: &mut [Node], value: Node) -> Result<(), Fault> {
-        let segment = &self.path[1];
+    /// Goes on in the table of a list that the part `at` names; the part before is the name of the list.
+    fn set_in_list(&self, tables: &mut [Node], at: usize, value: Node) -> Result<(), Fault> {
+        let (section, segment) = (self.path[at - 1].text.as_str(), &self.path[at]);
         let names: Vec<String> = tables
             .iter()
             .enumerate()
             .map(|(i, node)| match &node.value {
-                Value::Table(table) => table_name(self.section, i, table),
-                _ => implicit_name(self.section, i, None),
+                Value::Table(table) => table_name(section, i, table),
+                _ => implicit_name(section, i, None),
             })
             .collect();
         let by_name = names.iter().position(|name| *name == segment.text);
         let by_index = || segment.index().filter(|&i| i < tables.len());
         let Some(index) = by_name.or_else(by_index) else {
-            return Err(Fault::unknown(self.section, &segment.text, names.iter().map(String::as_str))
-                .or_at(segment.span));
+            return Err(
+                Fault::unknown(section, &segment.text, names.iter().map(String::as_str)).or_at(segment.span)
+            );
         };
-        if self.path.len() == 2 {
+        if self.path.len() == at + 1 {
             return Err(whole_table(self.path));
         }
-        self.set_in(&mut tables[index], 2, value)
+        self.set_in(&mut tables[index], at + 1, value)
     }
 
     /// Puts the value at the rest of the path from `at` on.
@@ -89,6 +90,7 @@ impl Editor<'_> {
                 let child = || self.absent(segment, &self.path[at + 1]);
                 self.set_in(table.entry(key(segment), child), at + 1, value)
             }
+            Value::Array(tables) if self.is_list_of_group(at) => self.set_in_list(tables, at, value),
             Value::Array(items) => {
                 let count = items.len();
                 match segment.index().and_then(|i| items.get_mut(i)) {
@@ -107,6 +109,11 @@ impl Editor<'_> {
                     .or_at(segment.span))
             }
         }
+    }
+
+    /// Whether the part `at` names an object of a group.
+    fn is_list_of_group(&self, at: usize) -> bool {
+        self.section == "group" && at == 3 && self.path[2].text == "object"
     }
 
     /// Makes the array that a number stands for.

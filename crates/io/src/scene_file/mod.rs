@@ -34,7 +34,8 @@
 //! | `[[texture]]` | [`texture`] | images and patterns |
 //! | `[[material]]` | [`material`] | how surfaces answer light |
 //! | `[[mesh]]`, `[[model]]` | [`mesh`] | OBJ files |
-//! | `[[object]]` | [`object`], [`shape`], [`placement`] | what is there to see |
+//! | `[[object]]` | [`object`], [`shape`], [`placement`], [`copies`] | what is there to see |
+//! | `[[group]]` | [`group`] | objects that are placed together |
 //! | `[[light]]` | [`light`], [`area`] | what lights it |
 //! | `[[animation]]` | [`crate::animation`] | keyframes |
 
@@ -44,9 +45,13 @@ mod build;
 pub mod camera;
 mod cameras;
 mod choice;
+pub mod copies;
 mod edit;
 pub mod environment;
 pub mod focus;
+pub mod group;
+mod groups;
+mod hierarchy;
 pub mod light;
 pub mod material;
 pub mod mesh;
@@ -101,6 +106,8 @@ pub struct SceneFile {
     pub model: Vec<Placed<mesh::ModelTable>>,
     /// What is there to see.
     pub object: Vec<Placed<object::ObjectTable>>,
+    /// Objects that are placed together.
+    pub group: Vec<Placed<group::GroupTable>>,
     /// What lights it.
     pub light: Vec<Placed<light::LightTable>>,
     /// Keyframes.
@@ -116,6 +123,9 @@ struct Directory {
     meshes: Names,
     /// Objects, then models.
     things: Names,
+    groups: Names,
+    /// The objects of each group.
+    members: Vec<Names>,
     lights: Names,
 }
 
@@ -142,6 +152,8 @@ impl SceneFile {
             materials: Names::new("material", self.material.iter().map(|m| placed(&m.name)))?,
             meshes: Names::new("mesh", self.mesh.iter().map(|m| placed(&m.name)))?,
             things: Names::new("object", objects.chain(models))?,
+            groups: Names::new("group", self.group.iter().map(|g| placed(&g.name)))?,
+            members: hierarchy::member_names(self)?,
             lights: Names::new("light", lights)?,
         })
     }
@@ -159,6 +171,7 @@ impl SceneFile {
         for (i, object) in self.object.iter().enumerate() {
             object.check(directory.things.name(i), object.span())?;
         }
+        hierarchy::check(self, directory)?;
         for (i, light) in self.light.iter().enumerate() {
             light.check(directory.lights.name(i), light.span())?;
             if let Some(area) = &light.area {

@@ -25,6 +25,8 @@ pub(super) struct PixelSize {
     angle: f64,
     /// Metres at any distance.
     constant: f64,
+    /// Rows of the picture.
+    rows: f64,
 }
 
 impl PixelSize {
@@ -41,7 +43,7 @@ impl PixelSize {
             }
             Projection::Panorama => (std::f64::consts::PI / rows, 0.0),
         };
-        Self { eye, angle, constant }
+        Self { eye, angle, constant, rows }
     }
 
     /// Half a pixel at the near side of a sphere; within it, at the distance of its radius.
@@ -54,7 +56,7 @@ impl PixelSize {
 /// The motions of all things and cameras.
 #[derive(Clone, Debug)]
 pub(super) struct Motions {
-    /// Objects, then models.
+    /// Objects, then models, then the objects of the groups.
     pub(super) things: Vec<Motion<Transform>>,
     pub(super) cameras: Vec<Motion<DAffine3>>,
 }
@@ -104,7 +106,7 @@ impl Motions {
         let first = &stages[0];
         let things = (0..first.things.len()).map(|i| {
             let poses: Vec<_> = stages.iter().map(|stage| stage.things[i]).collect();
-            let test = Test::of_box(cast.boxes[i], &poses[0], pixel);
+            let test = Test::of_thing(i, &poses[0], cast, pixel);
             let poses = test.thin(&poses).iter().map(transform).collect::<Result<Vec<_>, _>>()?;
             Ok(Motion::through(poses).unwrap_or(Motion::still(Transform::IDENTITY)))
         });
@@ -120,7 +122,7 @@ impl Motions {
 fn every_second_is_enough(stages: &[Stage], cast: &Cast<'_>, pixel: &PixelSize) -> bool {
     let first = &stages[0];
     let things = (0..first.things.len()).all(|i| {
-        let test = Test::of_box(cast.boxes[i], &first.things[i], pixel);
+        let test = Test::of_thing(i, &first.things[i], cast, pixel);
         test.passes(2, &|k| stages[k].things[i], stages.len())
     });
     let camera = Test::of_camera(pixel);
@@ -138,7 +140,8 @@ struct Test {
 }
 
 impl Test {
-    fn of_box(bounds: Aabb, pose: &DAffine3, pixel: &PixelSize) -> Self {
+    fn of_thing(thing: usize, pose: &DAffine3, cast: &Cast<'_>, pixel: &PixelSize) -> Self {
+        let bounds = cast.boxes[thing];
         // A plane without end is judged by a piece of two metres.
         let is_finite = bounds.is_finite() && !bounds.is_empty();
         let bounds = if is_finite { bounds } else { Aabb { min: glam::Vec3::NEG_ONE, max: glam::Vec3::ONE } };
@@ -146,7 +149,10 @@ impl Test {
         let centre = pose.transform_point3(super::stage::centre(bounds));
         let distance = |p: &DVec3| pose.transform_point3(*p).distance(centre);
         let radius = points.iter().map(distance).fold(0.0, f64::max);
-        Self { points, tolerance: pixel.half_pixel(centre, radius) }
+        // What lies in a group may be placed anywhere: it is judged as if it filled the picture.
+        let is_placed = thing < cast.directory.things.len();
+        let tolerance = if is_placed { pixel.half_pixel(centre, radius) } else { 0.5 * radius / pixel.rows };
+        Self { points, tolerance }
     }
 
     /// A camera is judged by what stands a metre before it.

@@ -86,6 +86,11 @@ impl Names {
         self.names.iter().map(String::as_str)
     }
 
+    /// How many there are.
+    pub(super) fn len(&self) -> usize {
+        self.names.len()
+    }
+
     /// The name with that index.
     pub(super) fn name(&self, index: usize) -> &str {
         &self.names[index]

@@ -1,19 +1,21 @@
-//! `[[object]]`: a shape or a mesh, with materials, at a place.
+//! `[[object]]`: a shape, a mesh or a group, with materials, at a place.
 //!
 //! # Scene file
 //! ```toml
 //! [[object]]
 //! name = "ball"                  # `object`, `object2`, ... if left out
-//! sphere = { radius = 1 }        # exactly one shape, or mesh = "name"; see the module `shape`
+//! sphere = { radius = 1 }        # exactly one shape, or mesh = "name", see the module `shape`; or group = "name"
 //! material = "glass"             # a matte grey if left out; materials = ["wall", "roof"] for the slots of a mesh
 //! scale = 1                      # see the module `placement`
 //! rotate = [0, 0, 0]
 //! translate = [0, 1, 0]
 //! visible = true                 # whether camera rays see it
 //! casts_shadow = true
+//! copies = { count = [3, 1, 1], step = [2, 0, 0] } # optional; see the module `copies`
 //! ```
 
-use super::choice::{at_most_one, choice, exactly_one};
+use super::choice::{at_most_one, choice, exactly_one, without_effect};
+use super::copies::CopiesTable;
 use super::names::Names;
 use super::number::NonZero;
 use super::placement::{Matrix, impl_placement_keys};
@@ -27,7 +29,7 @@ use crate::error::quote;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A shape or a mesh, with materials, at a place.
+/// A shape, a mesh or a group, with materials, at a place.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ObjectTable {
@@ -53,11 +55,15 @@ pub struct ObjectTable {
     pub triangle: Option<Placed<TriangleTable>>,
     /// The name of a `[[mesh]]`.
     pub mesh: Option<Placed<String>>,
+    /// The name of a `[[group]]`.
+    pub group: Option<Placed<String>>,
     /// The name of a `[[material]]`. A matte grey named `default` if left out.
     pub material: Option<Placed<String>>,
     /// Names of materials by the slots of a mesh (`usemtl` in the order of the file); the last serves all further
     /// slots.
     pub materials: Option<Placed<Vec<Placed<String>>>>,
+    /// Copies in a regular array, placed by the keys below.
+    pub copies: Option<Placed<CopiesTable>>,
     /// Scale, a number or `[x, y, z]`.
     pub scale: Option<Placed<Splat<NonZero, 3>>>,
     /// Turn in degrees about x, then y, then z.
@@ -79,11 +85,14 @@ impl ObjectTable {
     /// Refuses an object that is nothing, or several things at once.
     pub(super) fn check(&self, name: &str, table: Option<Span>) -> Result<(), Fault> {
         let owner = format!("the object {}", quote(name));
-        exactly_one(&owner, "shape", table, &self.shape_keys().choices())?;
-        at_most_one(&[
-            choice("material", self.material.as_ref()),
-            choice("materials", self.materials.as_ref()),
-        ])
+        let group = [choice("group", self.group.as_ref())];
+        exactly_one(&owner, "shape", table, &[&self.shape_keys().choices()[..], &group].concat())?;
+        let materials =
+            [choice("material", self.material.as_ref()), choice("materials", self.materials.as_ref())];
+        if self.group.is_some() {
+            without_effect("beside `group`, whose objects have their own", &materials)?;
+        }
+        at_most_one(&materials)
     }
 
     /// The indices of the named materials; empty when none is named.

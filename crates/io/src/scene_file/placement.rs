@@ -64,7 +64,7 @@ impl PlacementKeys<'_> {
 }
 
 /// The turn about x, then y, then z, by angles in degrees.
-fn rotation(degrees: DVec3) -> DMat3 {
+pub(super) fn rotation(degrees: DVec3) -> DMat3 {
     DMat3::from_cols_array_2d(&turn_z(degrees.z))
         * DMat3::from_cols_array_2d(&turn_y(degrees.y))
         * DMat3::from_cols_array_2d(&turn_x(degrees.x))

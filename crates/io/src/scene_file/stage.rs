@@ -10,14 +10,14 @@ use heliostat_geometry::Aabb;
 #[derive(Clone, Debug)]
 pub(super) struct Cast<'a> {
     pub(super) directory: &'a Directory,
-    /// One box for each object, then one for each model.
+    /// One box for each object, then one for each model, then one for each object of the groups.
     pub(super) boxes: Vec<Aabb>,
 }
 
 /// Poses at one moment.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Stage {
-    /// Objects, then models.
+    /// Objects, then models, then the objects of the groups, which stand in the space of their group.
     pub(super) things: Vec<DAffine3>,
     pub(super) cameras: Vec<DAffine3>,
 }
@@ -30,7 +30,9 @@ impl Cast<'_> {
     pub(super) fn stage(&self, file: &SceneFile) -> Result<Stage, Fault> {
         let objects = file.object.iter().map(|object| object.placement_keys().affine());
         let models = file.model.iter().map(|model| model.placement_keys().affine());
-        let things: Vec<DAffine3> = objects.chain(models).collect::<Result<_, _>>()?;
+        let members = file.group.iter().flat_map(|group| &group.object);
+        let members = members.map(|object| object.placement_keys().affine());
+        let things: Vec<DAffine3> = objects.chain(models).chain(members).collect::<Result<_, _>>()?;
         let targets = self.targets(&things);
         let cameras = file
             .camera

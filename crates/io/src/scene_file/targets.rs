@@ -10,7 +10,7 @@ use glam::DVec3;
 pub(super) struct Targets<'a> {
     /// Names of objects, then of models.
     pub(super) names: &'a Names,
-    /// One point for each name.
+    /// One point for each name, and more that have none.
     pub(super) centres: Vec<DVec3>,
 }
 

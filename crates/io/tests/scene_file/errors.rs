@@ -253,7 +253,7 @@ fn exactly_one_of_several_keys() {
     refused(
         &with_camera("«[[object]]»\nname = \"ball\"\n"),
         "the object `ball` has no shape",
-        "add one of `sphere`, `cuboid`, `plane`, `rectangle`, `disk`, `cylinder`, `cone`, `torus`, `triangle`, `mesh`",
+        "add one of `sphere`, `cuboid`, `plane`, `rectangle`, `disk`, `cylinder`, `cone`, `torus`, `triangle`, `mesh`, `group`",
     );
     refused(
         &with_camera("«[[light]]»\nname = \"key\"\n"),

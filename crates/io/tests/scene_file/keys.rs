@@ -53,7 +53,17 @@ fn template(table: &str) -> &'static str {
         "Textured" => textured!("[[material]]\nname = 'm'\nphong.diffuse = { @ }"),
         "MeshTable" => "camera = {}\n[[mesh]]\n@",
         "ModelTable" => supplied!("[[model]]\n@"),
-        "ObjectTable" => supplied!("[[object]]\n@"),
+        "ObjectTable" => supplied!("group = [{ name = 'g', object = [{ plane = {} }] }]\n[[object]]\n@"),
+        "GroupTable" => "camera = {}\n[[group]]\n@",
+        "CopiesTable" => "camera = {}\n[[object]]\nplane = {}\n[object.copies]\n@",
+        "JitterTable" => {
+            "camera = {}
+             [[object]]
+             plane = {}
+             copies.count = [2, 1, 1]
+             copies.step = [1, 0, 0]
+             [object.copies.jitter]\n@"
+        }
         "LightTable" => supplied!("[[light]]\n@"),
         "AreaTable" => supplied!("[[light]]\n[light.area]\n@"),
         "SphereTable" => "camera = {}\n[[object]]\nsphere = { @ }",

@@ -6,6 +6,7 @@ mod animation;
 mod errors;
 mod files;
 mod flips;
+mod groups;
 mod keys;
 mod manual;
 mod motion;

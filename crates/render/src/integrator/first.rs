@@ -33,7 +33,7 @@ pub(super) fn first_hit(world: &World<'_>, ray: &CameraRay) -> Option<(SurfaceHi
         if point.opacity >= COVERING {
             return Some((surface, point.first_hit(object, material)));
         }
-        passing = passing.behind(seen.solid, &surface, ray.ray.dir);
+        passing = passing.behind(seen.thing, &surface, ray.ray.dir);
     }
 }
 

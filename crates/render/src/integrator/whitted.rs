@@ -135,7 +135,7 @@ impl Whitted {
         // Let the ray go on where the surface is cut away.
         if point.opacity < 1.0 {
             let straight = Branch {
-                passing: branch.passing.behind(seen.solid, surface, dir),
+                passing: branch.passing.behind(seen.thing, surface, dir),
                 weight: (1.0 - point.opacity) * branch.weight,
                 sampler: branch.sampler.fork(STRAIGHT_BRANCH),
                 ..branch
@@ -183,12 +183,12 @@ impl Whitted {
         }
         if let Some((weight, dir)) = split.glass {
             let refracted = Branch {
-                passing: branch.passing.behind(seen.solid, &seen.surface, dir),
+                passing: branch.passing.behind(seen.thing, &seen.surface, dir),
                 weight: branch.weight * weight,
                 depth: branch.depth + 1,
                 inside: point
                     .enters
-                    .then_some(Inside { solid: seen.solid, absorption: point.phong.absorption }),
+                    .then_some(Inside { thing: seen.thing, absorption: point.phong.absorption }),
                 from_camera: false,
                 sampler: branch.sampler.fork(GLASS_BRANCH),
                 ..*branch

@@ -6,11 +6,11 @@ use super::{LightSample, Target};
 use crate::lanes::{LANES, Lanes, Vec3Lanes};
 use crate::material_eval::MaterialEval;
 use crate::texture_eval::TexturePoint;
-use crate::world::{Hull, Place};
+use crate::world::{Chain, Hull, Lamp, Now, Place};
 use crate::world_sphere::WorldSphere;
 use glam::{Vec2, Vec3};
 use heliostat_geometry::shape::Sphere;
-use heliostat_geometry::{Shape, SurfacePoint, Transform};
+use heliostat_geometry::{Aabb, Shape, SurfacePoint, Transform};
 use heliostat_scene::light::{Falloff, LightKind};
 use heliostat_scene::material::Surface;
 use heliostat_scene::object::Geometry;
@@ -20,11 +20,42 @@ use heliostat_scene::{Light, Object, Rgb, Scene};
 #[derive(Debug)]
 pub(super) struct AreaLight<'s> {
     emitter: Emitter<'s>,
-    place: Place<'s>,
+    stand: Stand<'s>,
     radiance: Radiance<'s>,
     falloff: Falloff,
     two_sided: bool,
     shortcut: Option<Shortcut<'s>>,
+}
+
+/// Where the surface is.
+#[derive(Debug)]
+enum Stand<'s> {
+    Place(Place<'s>),
+    /// Inside groups.
+    Chain(Box<Chain<'s>>),
+}
+
+impl Stand<'_> {
+    /// See [`Place::now`].
+    #[inline]
+    fn now(&self, time: f32) -> Option<Now<'_>> {
+        match self {
+            Self::Place(place) => place.now(time),
+            Self::Chain(chain) => chain.now(time).map(Now::Moving),
+        }
+    }
+
+    /// See [`Hull::new`]; `None` without a finite box.
+    fn hull(&self, local: Aabb, shape: Option<&Shape>) -> Option<Hull> {
+        match self {
+            Self::Place(place) => place.bounds(local).is_finite().then(|| Hull::new(local, shape, place)),
+            Self::Chain(chain) => {
+                let still = chain.still().map(|still| Hull::new(local, shape, &Place::Still(still)));
+                let bounds = chain.bounds(local);
+                bounds.is_finite().then(|| still.unwrap_or_else(|| Hull::of_box(bounds)))
+            }
+        }
+    }
 }
 
 /// What the surface gives off.
@@ -40,7 +71,7 @@ enum Radiance<'s> {
 #[derive(Debug)]
 enum Shortcut<'s> {
     /// A sphere that stands still and falls off: uniform by solid angle.
-    Sphere(&'s Sphere, &'s Transform, WorldSphere),
+    Sphere(&'s Sphere, Box<Now<'s>>, WorldSphere),
     /// A flat lamp.
     Flat(WorldFlat),
 }
@@ -91,13 +122,14 @@ impl<'s> AreaLight<'s> {
         };
         let flat = match geometry {
             Geometry::Shape(shape) => WorldFlat::new(shape, transform).map(Shortcut::Flat),
-            Geometry::Mesh(_) => None,
+            Geometry::Mesh(_) | Geometry::Group(_) => None,
         };
-        let sphere =
-            || if *falloff == Falloff::InverseSquare { sphere_of(geometry, transform) } else { None };
+        let sphere = || {
+            if *falloff == Falloff::InverseSquare { sphere_of(geometry, Now::Still(transform)) } else { None }
+        };
         Some(Self {
             emitter: Emitter::new(scene, geometry, |_| true)?,
-            place: Place::Still(transform),
+            stand: Stand::Place(Place::Still(transform)),
             radiance: Radiance::Constant(light.intensity),
             falloff: *falloff,
             two_sided: *two_sided,
@@ -107,18 +139,34 @@ impl<'s> AreaLight<'s> {
 
     /// An object with a material that shines, on both sides; `None` for all others.
     pub(super) fn of_object(scene: &'s Scene, object: &'s Object) -> Option<Self> {
+        let still = (!object.motion.is_moving()).then(|| Now::Still(object.motion.first()));
+        Self::shining(scene, object, Stand::Place(Place::of(&object.motion)), still)
+    }
+
+    /// A part of a group with a material that shines; `None` for all others.
+    pub(super) fn of_part(scene: &'s Scene, lamp: Lamp<'s>) -> Option<Self> {
+        let still = lamp.chain.still().map(|still| Now::Moving(*still));
+        Self::shining(scene, lamp.object, Stand::Chain(Box::new(lamp.chain)), still)
+    }
+
+    /// An object that stands there, and if it does not move, at the place `still`.
+    fn shining(
+        scene: &'s Scene,
+        object: &'s Object,
+        stand: Stand<'s>,
+        still: Option<Now<'s>>,
+    ) -> Option<Self> {
         let shines = |slot: u16| {
             let Surface::Phong(phong) = &scene.materials[object.material(slot).index()].surface;
             !phong.emission.is_zero()
         };
-        let still = (!object.motion.is_moving()).then(|| object.motion.first());
         Some(Self {
             emitter: Emitter::new(scene, &object.geometry, shines)?,
-            place: Place::of(&object.motion),
+            stand,
             radiance: Radiance::Object(scene, object),
             falloff: Falloff::InverseSquare,
             two_sided: true,
-            shortcut: still.and_then(|transform| sphere_of(&object.geometry, transform)),
+            shortcut: still.and_then(|place| sphere_of(&object.geometry, place)),
         })
     }
 
@@ -129,7 +177,7 @@ impl<'s> AreaLight<'s> {
             Emitter::Shape(shape) => Some(*shape),
             Emitter::Mesh { .. } => None,
         };
-        self.place.bounds(local).is_finite().then(|| Hull::new(local, shape, &self.place))
+        self.stand.hull(local, shape)
     }
 
     /// The light that arrives at `p` from one point of the surface.
@@ -168,7 +216,7 @@ impl<'s> AreaLight<'s> {
     /// One point of any surface, uniform by local area.
     fn sample_by_area(&self, p: Vec3, u: Vec2, time: f32) -> Option<LightSample> {
         let sample = self.emitter.sample(u)?;
-        let on_light = self.place.now(time)?.sample_to_world(&sample.point);
+        let on_light = self.stand.now(time)?.sample_to_world(&sample.point);
         let (to_light, share) = self.share(on_light.at.p - p, on_light.at.ng, on_light.pdf.recip())?;
         Some(LightSample {
             to_light,
@@ -241,11 +289,11 @@ impl<'s> AreaLight<'s> {
 }
 
 /// The shortcut for a geometry that is a sphere in world space.
-fn sphere_of<'s>(geometry: &'s Geometry, transform: &'s Transform) -> Option<Shortcut<'s>> {
+fn sphere_of<'s>(geometry: &'s Geometry, place: Now<'s>) -> Option<Shortcut<'s>> {
     match geometry {
         Geometry::Shape(Shape::Sphere(sphere)) => {
-            let world = WorldSphere::new(sphere.radius, transform)?;
-            Some(Shortcut::Sphere(sphere, transform, world))
+            let world = WorldSphere::new(sphere.radius, &place)?;
+            Some(Shortcut::Sphere(sphere, Box::new(place), world))
         }
         _ => None,
     }

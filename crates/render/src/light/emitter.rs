@@ -39,6 +39,8 @@ impl<'s> Emitter<'s> {
                 let triangles = TriangleTable::new(mesh, shines)?;
                 Some(Self::Mesh { mesh, triangles })
             }
+            // Its parts shine, each by itself.
+            Geometry::Group(_) => None,
         }
     }
 

@@ -11,7 +11,7 @@ mod emitter;
 mod flat;
 mod sphere;
 
-use crate::world::Hull;
+use crate::world::{Hull, Lamp};
 use area::{AreaLight, FlatLamp};
 use delta::{DirectionalLight, PointLight};
 use glam::{Vec2, Vec3};
@@ -116,21 +116,22 @@ impl<'s> PreparedLight<'s> {
 pub(crate) struct LightTable<'s> {
     /// Ia: the sum of the ambient lights.
     pub(crate) ambient: Rgb,
-    /// The others, objects that shine included.
+    /// The others, objects and parts of groups that shine included.
     pub(crate) lights: Vec<PreparedLight<'s>>,
 }
 
 impl<'s> LightTable<'s> {
     /// The lights of a scene whose ids are valid.
-    pub(crate) fn new(scene: &'s Scene) -> Self {
+    ///
+    /// `lamps` are the parts of groups that may shine.
+    pub(crate) fn new(scene: &'s Scene, lamps: Vec<Lamp<'s>>) -> Self {
         let ambient = |light: &&Light| matches!(light.kind, LightKind::Ambient);
         let declared = scene.lights.iter().filter_map(|light| prepare(scene, light));
-        let shining = scene.objects.iter().filter_map(|object| {
-            Some(PreparedLight::new(
-                SHINING_OBJECT_SAMPLES,
-                Source::Area(AreaLight::of_object(scene, object)?),
-            ))
-        });
+        let objects = scene.objects.iter().map(|object| AreaLight::of_object(scene, object));
+        let parts = lamps.into_iter().map(|lamp| AreaLight::of_part(scene, lamp));
+        let shining = objects
+            .chain(parts)
+            .filter_map(|light| Some(PreparedLight::new(SHINING_OBJECT_SAMPLES, Source::Area(light?))));
         Self {
             ambient: scene.lights.iter().filter(ambient).map(|light| light.intensity).sum(),
             lights: declared.chain(shining).collect(),

@@ -71,20 +71,48 @@ fn meets_ball(ray: &Ray, ball: &Ball) -> bool {
     !misses
 }
 
-/// # Source
-/// Kay and Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986; distances are grown by their rounding as in Ize, "Robust BVH
-/// Ray Traversal", JCGT 2013.
 fn meets_box(ray: &Ray, bounds: &Aabb) -> bool {
-    let inverse = Vec3::from(inverse_direction(ray.dir.into()));
-    let reach = ray.origin.abs().max_element() + bounds.min.abs().max(bounds.max.abs()).max_element();
-    let a = (bounds.min - ray.origin) * inverse;
-    let b = (bounds.max - ray.origin) * inverse;
-    let padding = cell_padding(reach, reach) * inverse.abs();
-    let near = (a.min(b) - padding).max_element().max(ray.range.min);
-    let far = (a.max(b) + padding).min_element().min(ray.range.max);
-    // A NaN, from numbers that overflow, does not say that it misses.
-    let misses = near > far;
-    !misses
+    BoxRay::new(ray).may_meet(bounds, ray.range.max)
+}
+
+/// A ray that asks for several boxes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct BoxRay {
+    origin: Vec3,
+    inverse: Vec3,
+    /// Largest coordinate of the origin.
+    reach: f32,
+    start: f32,
+}
+
+impl BoxRay {
+    #[inline]
+    pub(super) fn new(ray: &Ray) -> Self {
+        Self {
+            origin: ray.origin,
+            inverse: Vec3::from(inverse_direction(ray.dir.into())),
+            reach: ray.origin.abs().max_element(),
+            start: ray.range.min,
+        }
+    }
+
+    /// Whether the ray may meet what lies in the box, from its start up to `end`; false only where it does not.
+    ///
+    /// # Source
+    /// Kay and Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986; distances are grown by their rounding as in Ize, "Robust BVH
+    /// Ray Traversal", JCGT 2013.
+    #[inline]
+    pub(super) fn may_meet(&self, bounds: &Aabb, end: f32) -> bool {
+        let reach = self.reach + bounds.min.abs().max(bounds.max.abs()).max_element();
+        let a = (bounds.min - self.origin) * self.inverse;
+        let b = (bounds.max - self.origin) * self.inverse;
+        let padding = cell_padding(reach, reach) * self.inverse.abs();
+        let near = (a.min(b) - padding).max_element().max(self.start);
+        let far = (a.max(b) + padding).min_element().min(end);
+        // A NaN, from numbers that overflow, does not say that it misses.
+        let misses = near > far;
+        !misses
+    }
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@
 //! crosses in this place are asked with the origin behind them.
 
 use super::hit::SurfaceHit;
+use super::thing::Thing;
 use glam::Vec3;
 use heliostat_geometry::error_bound::offset_origin;
 use heliostat_geometry::{Ray, SurfacePoint};
@@ -21,9 +22,9 @@ const BEFORE: f32 = 4.0;
 /// What a ray crosses where it starts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Crossing {
-    /// The things it leaves behind: indices into the solids.
-    solids: [u32; MOST],
-    count: usize,
+    /// The things it leaves behind.
+    things: [Thing; MOST],
+    count: u32,
     /// The surface crossed last.
     at: SurfacePoint,
     /// Origin behind it.
@@ -42,8 +43,8 @@ pub(crate) struct PassingRay {
 /// The glass that a ray runs through.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Inside {
-    /// Index into the solids.
-    pub(crate) solid: u32,
+    /// Which.
+    pub(crate) thing: Thing,
     /// Absorption per metre.
     pub(crate) absorption: Rgb,
 }
@@ -54,29 +55,29 @@ impl PassingRay {
         Self { ray, crossing: None }
     }
 
-    /// A ray in direction `dir` that goes on behind `hit`, which `self` found on thing `solid`.
-    pub(crate) fn behind(&self, solid: u32, hit: &SurfaceHit, dir: Vec3) -> Self {
+    /// A ray in direction `dir` that goes on behind `hit`, which `self` found on `thing`.
+    pub(crate) fn behind(&self, thing: Thing, hit: &SurfaceHit, dir: Vec3) -> Self {
         let at = hit.hit.at;
         let behind = at.spawn(dir);
         // Surfaces crossed before belong to this place too, when this one lies within their error.
         let before = self.crossing.filter(|crossing| crossing.is_at(&at));
-        let (mut solids, mut count) =
-            before.map_or(([0; MOST], 0), |crossing| (crossing.solids, crossing.count));
-        if count == MOST {
+        let (mut things, mut count) =
+            before.map_or(([thing; MOST], 0), |crossing| (crossing.things, crossing.count));
+        if count as usize == MOST {
             return Self::free(behind);
         }
-        solids[count] = solid;
+        things[count as usize] = thing;
         count += 1;
-        let crossing = Crossing { solids, count, at, behind: behind.origin };
+        let crossing = Crossing { things, count, at, behind: behind.origin };
         let origin = offset_origin(at.p, BEFORE * at.p_err, at.ng, -dir);
         Self { ray: Ray::new(origin, dir), crossing: Some(crossing) }
     }
 
     /// The ray with which a thing is asked: `range` of the search so far, the origin behind things that are crossed.
     #[inline]
-    pub(super) fn seen_by(&self, solid: u32, search: &Ray) -> Ray {
+    pub(super) fn seen_by(&self, thing: Thing, search: &Ray) -> Ray {
         match &self.crossing {
-            Some(crossing) if crossing.solids[..crossing.count].contains(&solid) => {
+            Some(crossing) if crossing.things[..crossing.count as usize].contains(&thing) => {
                 Ray { origin: crossing.behind, ..*search }
             }
             _ => *search,

@@ -1,13 +1,13 @@
 //! Things that let light through on its way: cut-outs and, as an option, glass.
 
 use super::blocker::Chords;
-use super::solid::{Solid, SurfaceAt};
+use super::body::{Body, SurfaceAt};
 use crate::lanes::{LANES, Mask, Vec3Lanes, holds, lanes_of, widest};
 use crate::material_eval::MaterialEval;
 use crate::phong::fresnel_at;
 use crate::texture_eval::TexturePoint;
 use glam::Vec3;
-use heliostat_geometry::Ray;
+use heliostat_geometry::{Ray, Transform};
 use heliostat_scene::material::{FresnelMode, Phong, Surface};
 use heliostat_scene::{Material, Object, Rgb, Scene};
 use pulp::NullaryFnOnce;
@@ -47,14 +47,14 @@ struct Passed {
 
 impl Filter<'_> {
     /// The share of the light of `ray` that passes all surfaces of the thing.
-    pub(super) fn share(&self, ray: &Ray, solid: &Solid<'_>, time: f32) -> Rgb {
+    pub(super) fn share(&self, ray: &Ray, body: &Body<'_>, place: &Transform) -> Rgb {
         let (absorbed, open, absorption) = (Vec3::ZERO, Vec3::ZERO, Rgb::ZERO);
         let mut passed = Passed { share: Rgb::ONE, absorbed, open, absorption };
         let is_done = self
             .plain()
-            .is_some_and(|pane| solid.each_crossing(ray, time, |t, n| passed.through(ray, t, [n, n], &pane)));
+            .is_some_and(|pane| body.each_crossing(place, ray, |t, n| passed.through(ray, t, [n, n], &pane)));
         if !is_done {
-            solid.each_surface(ray, time, |surface| {
+            body.each_surface(place, ray, |surface| {
                 let SurfaceAt { hit, .. } = surface;
                 passed.through(ray, hit.t, [hit.at.ng, hit.ns], &self.pane_at(&surface));
             });

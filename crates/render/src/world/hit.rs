@@ -11,7 +11,7 @@ pub enum Owner {
     Object {
         /// Index into [`heliostat_scene::Scene::objects`].
         index: u32,
-        /// The material of the surface.
+        /// The material of the surface; on groups, that of the part.
         material: MaterialId,
     },
     /// The visible surface of an area light: index into [`heliostat_scene::Scene::lights`].
@@ -25,7 +25,10 @@ pub struct SurfaceHit {
     pub hit: Hit,
     /// Whose surface it is.
     pub owner: Owner,
-    /// Position in the local space of the owner.
+    /// Which part of an object that is a group: its number in the order in which groups hold things, copy by copy. 0 for what
+    /// is no group.
+    pub part: u64,
+    /// Position in the local space of the owner; on groups, of the part.
     pub local: Vec3,
     /// Interpolated vertex colour, where the mesh has one.
     pub color: Option<Rgb>,

@@ -1,23 +1,32 @@
 //! What the world has to know of each thing before rays ask: whether it is seen, how it stops light, and what shading looks
 //! at.
 
+use super::body::Parameters;
 use super::place::Place;
-use super::solid::Parameters;
+use super::solid::Content;
 use heliostat_scene::light::LightKind;
 use heliostat_scene::material::{Material, Surface};
 use heliostat_scene::object::Geometry;
 use heliostat_scene::settings::Layers;
 use heliostat_scene::{MaterialId, Object, Scene, TextureId};
 
-/// How a thing stops light.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Shadow {
-    /// Not at all.
-    None,
-    /// A part of it passes.
-    Filter,
-    /// Nothing passes.
-    Solid,
+/// How a thing stops light; a group may do both.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Shadow {
+    /// Something in it lets nothing through.
+    pub(super) stops: bool,
+    /// Something in it lets a part through.
+    pub(super) filters: bool,
+}
+
+impl Shadow {
+    /// No shadow.
+    pub(super) const NONE: Self = Self { stops: false, filters: false };
+
+    /// That of both.
+    pub(super) fn and(self, other: Self) -> Self {
+        Self { stops: self.stops || other.stops, filters: self.filters || other.filters }
+    }
 }
 
 /// The area lights that are seen: their index, surface and place.
@@ -30,24 +39,25 @@ pub(super) fn visible_lights(scene: &Scene) -> impl Iterator<Item = (u32, (&Geom
     })
 }
 
-/// How an object stops light, by all of its materials.
-pub(super) fn shadow_of(scene: &Scene, object: &Object, glass: bool) -> Shadow {
+/// How an object stops light, by all of its materials or by what its group holds.
+pub(super) fn shadow_of(scene: &Scene, object: &Object, content: &Content<'_>, glass: bool) -> Shadow {
     let lets_through = |material: &Material| {
         let Surface::Phong(phong) = &material.surface;
         material.opacity.factor < 1.0
             || material.opacity.texture.is_some()
             || (glass && !phong.transparency.is_zero())
     };
-    if !object.casts_shadow {
-        Shadow::None
-    } else if object.materials.iter().any(|id| lets_through(&scene.materials[id.index()])) {
-        Shadow::Filter
-    } else {
-        Shadow::Solid
+    match content {
+        _ if !object.casts_shadow => Shadow::NONE,
+        Content::Group(group) => group.shadow(),
+        Content::Body(_) => {
+            let filters = object.materials.iter().any(|id| lets_through(&scene.materials[id.index()]));
+            Shadow { stops: !filters, filters }
+        }
     }
 }
 
-/// Whether anything looks at the surface parameters of an object.
+/// Whether anything looks at the surface parameters of an object. A group answers for each of its parts.
 pub(super) fn parameters_of(scene: &Scene, object: &Object, layers: &Layers) -> Parameters {
     let looks = |id: TextureId| scene.textures[id.index()].uses_parameters();
     let material = |id: &MaterialId| {

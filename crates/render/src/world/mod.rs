@@ -1,14 +1,16 @@
 //! A scene made ready for rays: indices over objects and meshes, and the table of its lights.
 //!
-//! Two levels: each mesh has one tree in its local space, however many objects show it; the world has one index over the
-//! boxes of its objects. The visible surfaces of area lights stand beside the objects: rays see them, but they throw
+//! Levels: each mesh has one tree in its local space, however many objects show it; each group has its indices in its own
+//! space, however often it is placed, at whatever depth; the world has one index over the boxes of its objects. The visible surfaces of area lights stand beside the objects: rays see them, but they throw
 //! no shadow, so that a bulb does not hide the light inside it.
 
 mod blocker;
+mod body;
 mod bound;
 mod crossing;
 mod error;
 mod filter;
+mod group;
 mod hit;
 mod hull;
 mod kinds;
@@ -19,26 +21,34 @@ mod shadow_rays;
 mod shaft;
 mod solid;
 mod terminator;
+mod thing;
 mod trees;
 
 use crossing::coincide;
 pub(crate) use crossing::{Inside, PassingRay};
 pub use error::WorldError;
+pub(crate) use group::{Chain, Lamp, PreparedGroup};
 pub use hit::{Owner, SurfaceHit};
 pub(crate) use hull::Hull;
 pub(crate) use level::Candidates;
-pub(crate) use place::Place;
+pub(crate) use place::{Now, Place};
 pub(crate) use shadow_rays::ShadowRays;
+pub(crate) use thing::Thing;
 pub use trees::TreeCache;
 
 use crate::light::{LightTable, PreparedLight};
+use body::{Parameters, SurfaceAt};
+use group::{Groups, Look};
 use heliostat_geometry::{Aabb, Ray};
 use heliostat_index::{BspTree, MeshTree, TraversalCost};
-use heliostat_scene::{RenderSettings, Rgb, Scene};
+use heliostat_scene::object::Geometry;
+use heliostat_scene::{GroupId, Object, RenderSettings, Rgb, Scene};
 use kinds::{Shadow, parameters_of, shadow_of, visible_lights};
 use level::Level;
-use solid::{Meeting, Parameters, Solid, SurfaceAt};
+use solid::{Content, Solid, Stock};
+use std::cell::Cell;
 use std::sync::Arc;
+use thing::{Met, Standing};
 
 /// A scene made ready for rays.
 #[derive(Debug)]
@@ -54,6 +64,8 @@ pub struct World<'s> {
     shining: Vec<u32>,
     level: Level,
     trees: Vec<Arc<MeshTree>>,
+    /// In the order of the scene.
+    groups: Vec<Arc<PreparedGroup<'s>>>,
     lights: LightTable<'s>,
     /// What throws shadows: all of it, what lets nothing through, and the rest.
     casters: Candidates,
@@ -70,8 +82,8 @@ pub struct World<'s> {
 /// The nearest thing on the way of a ray.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen {
-    /// Index into the solids, for [`PassingRay::behind`].
-    pub(crate) solid: u32,
+    /// Which, for [`PassingRay::behind`].
+    pub(crate) thing: Thing,
     /// The surface.
     pub(crate) surface: SurfaceHit,
 }
@@ -94,29 +106,33 @@ impl<'s> World<'s> {
         settings: &RenderSettings,
         cache: &mut TreeCache,
     ) -> Result<Self, WorldError> {
-        error::check(scene)?;
+        let census = error::check(scene)?;
         let trees = cache.trees(scene)?;
+        let glass = settings.transparent_shadows;
+        let ready = group::Settings { glass, layers: &settings.layers };
+        let groups =
+            group::prepare(scene, &census, &trees, ready).map_err(|error| error::group(scene, error))?;
+        let stock = Stock { scene, trees: &trees, groups: &groups };
         let objects = scene.objects.iter().map(|object| (&object.geometry, Place::of(&object.motion)));
         let (shining, surfaces): (Vec<_>, Vec<_>) = visible_lights(scene).unzip();
-        let solids: Vec<_> = objects
-            .chain(surfaces)
-            .map(|(geometry, place)| Solid::new(scene, &trees, geometry, place))
-            .collect();
-        let glass = settings.transparent_shadows;
-        let shadows: Vec<_> = scene.objects.iter().map(|object| shadow_of(scene, object, glass)).collect();
-        let shadows = [shadows, vec![Shadow::None; shining.len()]].concat();
+        let solids: Vec<_> =
+            objects.chain(surfaces).map(|(geometry, place)| Solid::new(&stock, geometry, place)).collect();
+        let objects = || scene.objects.iter().zip(&solids);
+        let shadows = objects().map(|(object, solid)| shadow_of(scene, object, &solid.content, glass));
+        let shadows: Vec<_> = shadows.chain(shining.iter().map(|_| Shadow::NONE)).collect();
         let parameters = scene.objects.iter().map(|object| parameters_of(scene, object, &settings.layers));
         let parameters = parameters.chain(shining.iter().map(|_| Parameters::Used)).collect();
         let level = Level::new(&solids).map_err(|source| error::objects(scene, source))?;
-        let of_kind = |kind: Shadow| level.candidates(|i| shadows[i as usize] == kind);
+        let candidates = |is: fn(&Shadow) -> bool| level.candidates(|i| is(&shadows[i as usize]));
         Ok(Self {
-            casters: level.candidates(|i| shadows[i as usize] != Shadow::None),
-            stoppers: of_kind(Shadow::Solid),
-            filters: of_kind(Shadow::Filter),
-            level,
-            lights: LightTable::new(scene),
-            has_filters: shadows.contains(&Shadow::Filter),
+            casters: candidates(|shadow| *shadow != Shadow::NONE),
+            stoppers: candidates(|shadow| shadow.stops),
+            filters: candidates(|shadow| shadow.filters),
+            lights: LightTable::new(scene, lamps(scene, &groups)),
+            has_filters: shadows.iter().any(|shadow| shadow.filters),
             all_visible: scene.objects.iter().all(|object| object.visible),
+            groups: in_order(scene, groups),
+            level,
             scene,
             solids,
             shadows,
@@ -147,6 +163,11 @@ impl<'s> World<'s> {
         &self.trees
     }
 
+    /// Each group of the scene, in their order.
+    pub(crate) fn groups(&self) -> &[Arc<PreparedGroup<'s>>] {
+        &self.groups
+    }
+
     /// The nearest surface that a ray meets at `time` in `[0, 1]` over the shutter.
     pub fn closest_hit(&self, ray: &Ray, time: f32) -> Option<SurfaceHit> {
         self.seen(&PassingRay::free(*ray), time, false).map(|seen| seen.surface)
@@ -159,10 +180,13 @@ impl<'s> World<'s> {
 
     /// [`World::camera_hit`] that adds the work on both levels to `cost`.
     pub fn camera_hit_counted(&self, ray: &Ray, time: f32, cost: &mut TraversalCost) -> Option<SurfaceHit> {
-        let mut below = TraversalCost::default();
+        let below = Cell::new(TraversalCost::default());
+        let passing = PassingRay::free(*ray);
         let found = self.level.closest_counted(ray, cost, |i, ray| {
-            self.is_seen(i, true).then(|| self.solids[i as usize].closest_counted(ray, time, &mut below))?
+            let look = Look { passing: &passing, solid: i, time, camera: true, cost: Some(&below) };
+            self.is_seen(i, true).then(|| self.meet(&look, ray))?
         });
+        let below = below.get();
         cost.nodes += below.nodes;
         cost.leaves += below.leaves;
         cost.tests += below.tests;
@@ -187,12 +211,35 @@ impl<'s> World<'s> {
             if !self.is_seen(i, camera) {
                 return None;
             }
-            self.solids[i as usize].closest(&passing.seen_by(i, search), time)
+            self.meet(&Look { passing, solid: i, time, camera, cost: None }, search)
         })?;
-        let solid = found.primitive;
-        let ray = passing.seen_by(solid, &passing.ray);
-        let surface = self.surface(solid, &ray, time, found.data, parameters(solid))?;
-        Some(Seen { solid, surface })
+        let thing = Thing { solid: found.primitive, part: found.data.part };
+        let ray = passing.seen_by(thing, &passing.ray);
+        let surface = self.surface(thing.solid, &ray, time, found.data, parameters(thing.solid))?;
+        Some(Seen { thing, surface })
+    }
+
+    /// The nearest meeting of a ray with one solid.
+    #[inline]
+    fn meet(&self, look: &Look<'_>, search: &Ray) -> Option<(f32, Met)> {
+        let solid = &self.solids[look.solid as usize];
+        let mut room = None;
+        let place = solid.place.at(look.time, &mut room)?;
+        let body = match &solid.content {
+            Content::Body(body) => body,
+            Content::Group(group) => return group.closest(look, search, place, 0),
+        };
+        let ray = look.passing.seen_by(Thing::whole(look.solid), search);
+        let (t, meeting) = match look.cost {
+            None => body.closest(place, &ray)?,
+            Some(cost) => {
+                let mut sum = cost.get();
+                let found = body.closest_counted(place, &ray, &mut sum);
+                cost.set(sum);
+                found?
+            }
+        };
+        Some((t, Met { part: 0, meeting }))
     }
 
     /// [`World::seen`] for a ray that may run through glass: where the surface of the glass and another one lie in the same
@@ -207,8 +254,8 @@ impl<'s> World<'s> {
         camera: bool,
     ) -> Option<Seen> {
         let seen = self.nearest(passing, time, camera, |i| self.parameters[i as usize])?;
-        if let Some(inside) = inside.filter(|inside| inside.solid != seen.solid) {
-            let exit = self.seen_on(inside.solid, passing, time).filter(|exit| {
+        if let Some(inside) = inside.filter(|inside| inside.thing != seen.thing) {
+            let exit = self.seen_on(inside.thing, passing, time).filter(|exit| {
                 let ng = exit.surface.hit.at.ng;
                 ng.dot(passing.ray.dir) > 0.0 && coincide(&exit.surface.hit.at, &seen.surface.hit.at)
             });
@@ -220,11 +267,13 @@ impl<'s> World<'s> {
     }
 
     /// The nearest surface of one thing on the way of a ray.
-    fn seen_on(&self, solid: u32, passing: &PassingRay, time: f32) -> Option<Seen> {
-        let ray = passing.seen_by(solid, &passing.ray);
-        let (_, meeting) = self.solids[solid as usize].closest(&ray, time)?;
-        let surface = self.surface(solid, &ray, time, meeting, Parameters::Used)?;
-        Some(Seen { solid, surface })
+    fn seen_on(&self, thing: Thing, passing: &PassingRay, time: f32) -> Option<Seen> {
+        let ray = passing.seen_by(thing, &passing.ray);
+        let (_, meeting) =
+            self.with_thing(thing, time, |standing| standing.body.closest(standing.place, &ray))?;
+        let met = Met { part: thing.part, meeting };
+        let surface = self.surface(thing.solid, &ray, time, met, Parameters::Used)?;
+        Some(Seen { thing, surface })
     }
 
     /// The lights that shine from somewhere.
@@ -249,23 +298,84 @@ impl<'s> World<'s> {
         solid: u32,
         ray: &Ray,
         time: f32,
-        meeting: Meeting,
+        met: Met,
         parameters: Parameters,
     ) -> Option<SurfaceHit> {
-        let SurfaceAt { hit, local, slot, color, triangle } =
-            self.solids[solid as usize].surface(ray, time, meeting, parameters)?;
-        let owner = match self.scene.objects.get(solid as usize) {
+        let (index, solid) = (solid, &self.solids[solid as usize]);
+        let mut room = None;
+        let place = solid.place.at(time, &mut room)?;
+        match &solid.content {
+            Content::Body(body) => {
+                let found = body.surface(place, ray, met.meeting, parameters)?;
+                Some(self.owned(index, 0, self.scene.objects.get(index as usize), found))
+            }
+            Content::Group(group) => group.with_part(met.part, place, time, &mut |part| {
+                let parameters = if parameters == Parameters::Used { parameters } else { part.parameters };
+                let found = part.body.surface(part.place, ray, met.meeting, parameters)?;
+                Some(self.owned(index, met.part, part.object, found))
+            }),
+        }
+    }
+
+    /// A surface with its owner.
+    #[inline(always)]
+    fn owned(&self, solid: u32, part: u64, object: Option<&Object>, found: SurfaceAt) -> SurfaceHit {
+        let SurfaceAt { hit, local, slot, color, triangle } = found;
+        let owner = match object {
             Some(object) => Owner::Object { index: solid, material: object.material(slot) },
             None => Owner::Light(self.shining[solid as usize - self.scene.objects.len()]),
         };
-        Some(SurfaceHit { hit, owner, local, color, triangle })
+        SurfaceHit { hit, owner, part, local, color, triangle }
     }
 
-    /// The thing behind a hit.
-    fn solid_of(&self, hit: &SurfaceHit) -> Option<&Solid<'s>> {
+    /// Shows a thing at a moment to a closure; `None` where it has no place then.
+    #[inline]
+    fn with_thing<T>(
+        &self,
+        thing: Thing,
+        time: f32,
+        mut look: impl FnMut(&Standing<'_, 's>) -> Option<T>,
+    ) -> Option<T> {
+        let Thing { solid: index, part } = thing;
+        let solid = &self.solids[index as usize];
+        let mut room = None;
+        let place = solid.place.at(time, &mut room)?;
+        match &solid.content {
+            Content::Body(body) => {
+                let object = self.scene.objects.get(index as usize);
+                look(&Standing { body, place, object, parameters: self.parameters[index as usize] })
+            }
+            Content::Group(group) => group.with_part(part, place, time, &mut look),
+        }
+    }
+
+    /// [`World::with_thing`] for the thing behind a hit; `None` for the surface of a light.
+    fn with_owner<T>(
+        &self,
+        hit: &SurfaceHit,
+        time: f32,
+        look: impl FnMut(&Standing<'_, 's>) -> Option<T>,
+    ) -> Option<T> {
         match hit.owner {
-            Owner::Object { index, .. } => self.solids.get(index as usize),
+            Owner::Object { index, .. } => {
+                self.with_thing(Thing { solid: index, part: hit.part }, time, look)
+            }
             Owner::Light(_) => None,
         }
     }
+}
+
+/// The parts that shine in the groups of all objects.
+fn lamps<'s>(scene: &'s Scene, groups: &Groups<'s>) -> Vec<Lamp<'s>> {
+    let mut lamps = Vec::new();
+    for object in &scene.objects {
+        if let Geometry::Group(id) = &object.geometry {
+            groups[id].each_lamp(Place::of(&object.motion), &mut |lamp| lamps.push(lamp));
+        }
+    }
+    lamps
+}
+
+fn in_order<'s>(scene: &Scene, mut groups: Groups<'s>) -> Vec<Arc<PreparedGroup<'s>>> {
+    (0..scene.groups.len() as u32).filter_map(|id| groups.remove(&GroupId(id))).collect()
 }

@@ -18,7 +18,7 @@ pub(crate) enum Place<'s> {
 pub(crate) enum Now<'s> {
     /// The same at all times.
     Still(&'s Transform),
-    /// Interpolated.
+    /// Worked out for this moment.
     Moving(Transform),
 }
 
@@ -45,22 +45,47 @@ impl<'s> Place<'s> {
     pub(crate) fn now(&self, time: f32) -> Option<Now<'s>> {
         match self {
             Self::Still(transform) => Some(Now::Still(transform)),
-            Self::Moving(motion) => {
-                let (before, after, weight) = motion.around(time);
-                before.lerp(after, weight).map(Now::Moving)
-            }
+            Self::Moving(motion) => between(motion, time).map(Now::Moving),
+        }
+    }
+
+    /// [`Place::now`], in `room` only if it moves: a transform at rest is not moved about.
+    #[inline]
+    pub(super) fn at<'a>(&'a self, time: f32, room: &'a mut Option<Transform>) -> Option<&'a Transform> {
+        match self {
+            Self::Still(transform) => Some(transform),
+            Self::Moving(motion) => Some(room.insert(between(motion, time)?)),
+        }
+    }
+
+    /// Shows the map of a moment to world space to a closure, where this is a place in a space that `outer` maps there; `None` as
+    /// in [`Place::now`].
+    #[inline]
+    pub(super) fn below<T>(
+        &self,
+        outer: &Transform,
+        time: f32,
+        look: impl FnOnce(&Transform) -> Option<T>,
+    ) -> Option<T> {
+        match self {
+            Self::Still(inner) if inner.is_identity() => look(outer),
+            _ if outer.is_identity() => look(self.at(time, &mut None)?),
+            Self::Still(inner) => look(&inner.then(outer)?),
+            Self::Moving(motion) => look(&between(motion, time)?.then(outer)?),
         }
     }
 
     /// The box in world space of what has the box `local`, over the whole shutter.
-    ///
-    /// Points move on straight lines between two poses, so the boxes at the poses bound all that lies between.
     pub(crate) fn bounds(&self, local: Aabb) -> Aabb {
         match self {
             Self::Still(transform) => transform.bounds(local),
-            Self::Moving(motion) => {
-                motion.poses().iter().fold(Aabb::EMPTY, |around, pose| around.union(pose.bounds(local)))
-            }
+            Self::Moving(motion) => motion.bounds(local),
         }
     }
+}
+
+/// The transform of a moment; `None` where it has no inverse.
+fn between(motion: &Motion, time: f32) -> Option<Transform> {
+    let (before, after, weight) = motion.around(time);
+    before.lerp(after, weight)
 }

@@ -1,10 +1,11 @@
 //! What is left of light on its way: solid things stop it, cut-outs and (as an option) glass let a part through.
 
+use super::World;
 use super::filter::Filter;
 use super::hull::Hull;
 use super::level::Candidates;
 use super::shaft::Shaft;
-use super::{Shadow, World};
+use super::solid::Content;
 use heliostat_geometry::{Ray, SurfacePoint};
 use heliostat_scene::Rgb;
 
@@ -53,7 +54,7 @@ impl World<'_> {
     #[inline]
     fn is_stopped(&self, ray: &Ray, time: f32, candidates: Candidates) -> bool {
         self.level.any(ray, candidates.among(self.stoppers), |i, ray| {
-            self.shadows[i as usize] == Shadow::Solid && self.solids[i as usize].blocks(ray, time)
+            self.shadows[i as usize].stops && self.solids[i as usize].blocks(ray, time)
         })
     }
 
@@ -61,12 +62,32 @@ impl World<'_> {
     fn filtered(&self, ray: &Ray, time: f32, candidates: Candidates) -> Rgb {
         let mut share = Rgb::ONE;
         self.level.each(ray, candidates.among(self.filters), |i| {
-            if self.shadows[i as usize] == Shadow::Filter && share != Rgb::ZERO {
-                let object = &self.scene.objects[i as usize];
-                let filter = Filter { scene: self.scene, object, glass: self.glass };
-                share *= filter.share(ray, &self.solids[i as usize], time);
+            if self.shadows[i as usize].filters && share != Rgb::ZERO {
+                share *= self.share_past(i, ray, time);
             }
         });
         share
+    }
+
+    /// The share that passes what lets light through in one solid.
+    pub(super) fn share_past(&self, solid: u32, ray: &Ray, time: f32) -> Rgb {
+        let object = &self.scene.objects[solid as usize];
+        let solid = &self.solids[solid as usize];
+        let filter = |object| Filter { scene: self.scene, object, glass: self.glass };
+        let mut room = None;
+        // Without a place at this moment it stops nothing.
+        let Some(place) = solid.place.at(time, &mut room) else { return Rgb::ONE };
+        match &solid.content {
+            Content::Body(body) => filter(object).share(ray, body, place),
+            Content::Group(group) => {
+                let mut share = Rgb::ONE;
+                group.each_filter(ray, time, place, &mut |part| {
+                    if let Some(object) = part.object.filter(|_| share != Rgb::ZERO) {
+                        share *= filter(object).share(ray, part.body, part.place);
+                    }
+                });
+                share
+            }
+        }
     }
 }

@@ -71,11 +71,11 @@ impl World<'_> {
         if open == 0 {
             return;
         }
-        let (solid, object) = (&self.solids[thing as usize], &self.scene.objects[thing as usize]);
-        let filter = Filter { scene: self.scene, object, glass: self.glass };
-        let chords = match (filter.plain(), solid.blocker) {
-            (Some(pane), Some(Blocker::Sphere(sphere))) => {
-                Chords::new(&sphere, rays).map(|chords| (pane, chords))
+        let object = &self.scene.objects[thing as usize];
+        let chords = match self.solids[thing as usize].blocker {
+            Some(Blocker::Sphere(sphere)) => {
+                let filter = Filter { scene: self.scene, object, glass: self.glass };
+                filter.plain().and_then(|pane| Some((pane, Chords::new(&sphere, rays)?)))
             }
             _ => None,
         };
@@ -85,7 +85,7 @@ impl World<'_> {
             in_doubt &= chords.verdict.doubt;
         }
         for lane in lanes_of(in_doubt) {
-            shares.set(lane, shares.get(lane) * filter.share(&rays.ray(lane), solid, time));
+            shares.set(lane, shares.get(lane) * self.share_past(thing, &rays.ray(lane), time));
         }
     }
 }

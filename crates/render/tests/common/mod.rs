@@ -4,7 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a stage that does not stand fails its test")]
 
 use glam::{DAffine3, DMat3, Vec2, Vec3};
-use heliostat_geometry::shape::{Cuboid, Plane, Rectangle, Sphere};
+use heliostat_geometry::shape::{Cuboid, Plane, Rectangle, Sphere, Torus};
 use heliostat_geometry::{Ray, Shape, Transform, TriMesh};
 use heliostat_render::integrator::create;
 use heliostat_render::{CameraRay, RayCounters, Sample, Sampler, World};
@@ -55,6 +55,10 @@ pub(crate) fn rectangle(x: f32, z: f32) -> Geometry {
     Geometry::Shape(Shape::Rectangle(Rectangle { size: Vec2::new(x, z) }))
 }
 
+pub(crate) fn torus(major: f32, minor: f32) -> Geometry {
+    Geometry::Shape(Shape::Torus(Torus { major, minor }))
+}
+
 /// A shift.
 pub(crate) fn at(x: f32, y: f32, z: f32) -> Transform {
     Transform::translation(Vec3::new(x, y, z))
@@ -86,7 +90,8 @@ impl Stage {
     /// Adds an object of its own material, and hands it back for changes.
     pub(crate) fn add(&mut self, geometry: Geometry, phong: Phong, place: Transform) -> &mut Object {
         let n = self.scene.objects.len();
-        self.scene.materials.push(Material::new(format!("material {n}"), phong));
+        let material = format!("material {}", self.scene.materials.len());
+        self.scene.materials.push(Material::new(material, phong));
         self.scene.objects.push(Object {
             name: format!("object {n}"),
             geometry,

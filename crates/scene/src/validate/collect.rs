@@ -2,26 +2,37 @@
 
 use super::issue::{ItemKind, Problem, SceneIssue};
 use crate::color::Rgb;
-use crate::ids::{MaterialId, MeshId, TextureId};
+use crate::ids::{GroupId, MaterialId, MeshId, TextureId};
 use crate::scene::Scene;
+use std::borrow::Cow;
 use std::collections::HashSet;
 
 /// The issues so far and the item that is looked at.
 pub(super) struct Collector<'a> {
     scene: &'a Scene,
-    item: (ItemKind, usize, &'a str),
+    item: (ItemKind, usize, Cow<'a, str>),
     names: HashSet<(ItemKind, &'a str)>,
     issues: Vec<SceneIssue>,
 }
 
 impl<'a> Collector<'a> {
     pub(super) fn new(scene: &'a Scene) -> Self {
-        Self { scene, item: (ItemKind::Scene, 0, ""), names: HashSet::new(), issues: Vec::new() }
+        Self {
+            scene,
+            item: (ItemKind::Scene, 0, Cow::Borrowed("")),
+            names: HashSet::new(),
+            issues: Vec::new(),
+        }
     }
 
     /// Turns to an item without a name of its own.
     pub(super) fn turn_to(&mut self, kind: ItemKind, index: usize, name: &'a str) {
-        self.item = (kind, index, name);
+        self.item = (kind, index, Cow::Borrowed(name));
+    }
+
+    /// Turns to an object of a group.
+    pub(super) fn turn_to_member(&mut self, group: &str, index: usize, name: &str) {
+        self.item = (ItemKind::Member, index, Cow::Owned(format!("{group}/{name}")));
     }
 
     /// Turns to an item whose name must be unique.
@@ -33,8 +44,14 @@ impl<'a> Collector<'a> {
     }
 
     pub(super) fn add(&mut self, problem: Problem) {
-        let (kind, index, name) = self.item;
-        self.issues.push(SceneIssue { kind, index, name: name.to_owned(), problem });
+        let (kind, index, name) = &self.item;
+        let (kind, index, name) = (*kind, *index, name.clone().into_owned());
+        self.issues.push(SceneIssue { kind, index, name, problem });
+    }
+
+    /// Whether all ids that were looked at point to something.
+    pub(super) fn is_whole(&self) -> bool {
+        !self.issues.iter().any(|issue| matches!(issue.problem, Problem::Dangling { .. }))
     }
 
     pub(super) fn finish(self) -> Result<(), Vec<SceneIssue>> {
@@ -78,6 +95,10 @@ impl<'a> Collector<'a> {
 
     pub(super) fn mesh(&mut self, id: MeshId) {
         self.id(ItemKind::Mesh, id.0, self.scene.meshes.len());
+    }
+
+    pub(super) fn group(&mut self, id: GroupId) {
+        self.id(ItemKind::Group, id.0, self.scene.groups.len());
     }
 
     pub(super) fn material(&mut self, id: MaterialId) {

@@ -1,5 +1,7 @@
 //! What can be wrong with a scene.
 
+use crate::census::CensusError;
+use crate::group::Group;
 use heliostat_geometry::mesh::MeshError;
 use std::fmt;
 
@@ -14,6 +16,10 @@ pub enum ItemKind {
     Texture,
     /// [`crate::Scene::materials`].
     Material,
+    /// [`crate::Scene::groups`].
+    Group,
+    /// [`crate::Group::objects`]; the name is that of the group, a slash, and that of the object.
+    Member,
     /// [`crate::Scene::objects`].
     Object,
     /// [`crate::Scene::lights`].
@@ -29,7 +35,8 @@ impl fmt::Display for ItemKind {
             Self::Mesh => "mesh",
             Self::Texture => "texture",
             Self::Material => "material",
-            Self::Object => "object",
+            Self::Group => "group",
+            Self::Member | Self::Object => "object",
             Self::Light => "light",
             Self::Camera => "camera",
         })
@@ -77,6 +84,26 @@ pub enum Problem {
     ImageSize,
     /// A mesh contradicts itself.
     Mesh(MeshError),
+    /// A group holds nothing.
+    EmptyGroup,
+    /// A group stands nowhere.
+    NoPlace,
+    /// The place of a copy has no inverse.
+    Singular {
+        /// Index of the copy.
+        copy: usize,
+    },
+    /// An object that places a group has materials, which nothing would use.
+    GroupMaterial,
+    /// An area light cannot be a group.
+    GroupLight,
+    /// Groups cannot be counted.
+    Groups(CensusError),
+    /// The groups of an object and those before it hold too many parts that shine.
+    TooManyLamps {
+        /// How many.
+        count: u64,
+    },
 }
 
 impl fmt::Display for Problem {
@@ -96,6 +123,20 @@ impl fmt::Display for Problem {
             Self::NoArea => f.write_str("there is no surface"),
             Self::ImageSize => f.write_str("the image has not as many samples as its size says"),
             Self::Mesh(error) => error.fmt(f),
+            Self::EmptyGroup => f.write_str("the group holds no objects"),
+            Self::NoPlace => f.write_str("the group has no place to stand"),
+            Self::Singular { copy } => write!(f, "the transform of copy {copy} has no inverse"),
+            Self::GroupMaterial => {
+                f.write_str("a group takes no material: the objects that it holds have their own")
+            }
+            Self::GroupLight => f.write_str("a group cannot be an area light"),
+            Self::Groups(error) => error.fmt(f),
+            Self::TooManyLamps { count } => write!(
+                f,
+                "groups bring {count} things that shine, each a light of its own; {} is the most: make fewer copies, or take \
+                 the emission from the material",
+                Group::MAX_LAMPS
+            ),
         }
     }
 }

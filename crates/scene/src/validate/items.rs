@@ -6,7 +6,7 @@ use crate::camera::{Camera, Projection};
 use crate::image::{Image, Samples};
 use crate::light::LightKind;
 use crate::material::{ColorInput, FloatInput, Material, Phong, Relief, Surface};
-use crate::object::Geometry;
+use crate::object::{Geometry, Object};
 use crate::scene::{Background, Scene};
 use crate::texture::Pattern;
 use glam::Vec3;
@@ -94,19 +94,26 @@ fn check_phong(phong: &Phong, c: &mut Collector<'_>) {
 pub(super) fn objects<'a>(scene: &'a Scene, c: &mut Collector<'a>) {
     for (i, object) in scene.objects.iter().enumerate() {
         c.turn_to_named(ItemKind::Object, i, &object.name);
-        check_geometry(&object.geometry, c);
-        if object.materials.is_empty() {
-            c.add(Problem::NoMaterial);
-        }
-        object.materials.iter().for_each(|&id| c.material(id));
-        let poses = object.motion.poses();
-        c.finite("the transform", poses.iter().all(|pose| pose.matrix().is_finite()));
+        check_object(object, c);
     }
+}
+
+pub(super) fn check_object(object: &Object, c: &mut Collector<'_>) {
+    check_geometry(&object.geometry, c);
+    match (&object.geometry, object.materials.is_empty()) {
+        (Geometry::Group(_), false) => c.add(Problem::GroupMaterial),
+        (Geometry::Shape(_) | Geometry::Mesh(_), true) => c.add(Problem::NoMaterial),
+        _ => {}
+    }
+    object.materials.iter().for_each(|&id| c.material(id));
+    let poses = object.motion.poses();
+    c.finite("the transform", poses.iter().all(|pose| pose.matrix().is_finite()));
 }
 
 fn check_geometry(geometry: &Geometry, c: &mut Collector<'_>) {
     match geometry {
         Geometry::Mesh(id) => c.mesh(*id),
+        Geometry::Group(id) => c.group(*id),
         Geometry::Shape(shape) => check_shape(shape, c),
     }
 }
@@ -177,6 +184,7 @@ fn check_light(scene: &Scene, kind: &LightKind, c: &mut Collector<'_>) {
             match geometry {
                 Geometry::Shape(Shape::Plane(_)) => c.add(Problem::InfiniteArea),
                 Geometry::Mesh(id) if is_empty_mesh(scene, id.index()) => c.add(Problem::NoArea),
+                Geometry::Group(_) => c.add(Problem::GroupLight),
                 _ => {}
             }
         }

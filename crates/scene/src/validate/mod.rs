@@ -4,6 +4,7 @@
 //! before the renderer, which trusts what passed it.
 
 mod collect;
+mod groups;
 mod issue;
 mod items;
 
@@ -16,7 +17,7 @@ impl Scene {
     /// Checks the whole scene.
     ///
     /// # Errors
-    /// Everything that is wrong, in the order meshes, textures, materials, objects, lights, cameras, background.
+    /// Everything that is wrong, in the order meshes, textures, materials, groups, objects, lights, cameras, background.
     ///
     /// ```
     /// use heliostat_scene::{Scene, validate::Problem};
@@ -29,10 +30,12 @@ impl Scene {
         items::meshes(self, &mut collector);
         items::textures(self, &mut collector);
         items::materials(self, &mut collector);
+        groups::groups(self, &mut collector);
         items::objects(self, &mut collector);
         items::lights(self, &mut collector);
         items::cameras(self, &mut collector);
         items::background(self, &mut collector);
+        groups::sums(self, &mut collector);
         collector.finish()
     }
 }

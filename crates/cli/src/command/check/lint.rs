@@ -3,6 +3,7 @@
 use heliostat_io::Warning;
 use heliostat_io::error::Place;
 use heliostat_scene::material::{ColorInput, FloatInput, Material, Relief, Surface};
+use heliostat_scene::object::Geometry;
 use heliostat_scene::scene::Background;
 use heliostat_scene::{Rgb, Scene, TextureId};
 use std::path::Path;
@@ -19,12 +20,17 @@ pub(super) fn lint(path: &Path, scene: &Scene) -> Vec<Warning> {
             warnings.push(warning.at(place).with_help("use it, or take it out"));
         }
     };
-    let shown = |index: usize| scene.objects.iter().any(|o| o.materials.iter().any(|m| m.index() == index));
+    let objects = || scene.objects.iter().chain(scene.groups.iter().flat_map(|group| &group.objects));
+    let shown = |index: usize| objects().any(|o| o.materials.iter().any(|m| m.index() == index));
     let materials = scene.materials.iter().enumerate().filter(|&(index, _)| !shown(index));
     materials.for_each(|(_, material)| unused("the material", &material.name));
     let read = |index: usize| scene.materials.iter().any(|m| textures(m).any(|t| t.index() == index));
     let textures = scene.textures.iter().enumerate().filter(|&(index, _)| !read(index));
     textures.for_each(|(_, texture)| unused("the texture", &texture.name));
+    let placed =
+        |index: usize| objects().any(|o| matches!(o.geometry, Geometry::Group(id) if id.index() == index));
+    let groups = scene.groups.iter().enumerate().filter(|&(index, _)| !placed(index));
+    groups.for_each(|(_, group)| unused("the group", &group.name));
     if is_dark(scene) {
         let warning = Warning::new(path, "nothing gives light: the picture will be black");
         warnings.push(warning.with_help("add a [[light]] or an [environment]"));

@@ -134,9 +134,10 @@ fn name(preset: Preset) -> &'static str {
 fn export(scene: &Scene, trees: &[SceneTree], args: &IndexArgs, path: &Path) -> Result<(), Failure> {
     let wanted = args.tree.unwrap_or(if scene.meshes.len() == 1 { Tree::Mesh(0) } else { Tree::Objects });
     let Some(tree) = trees.iter().find(|t| t.which == wanted) else {
-        let meshes = scene.meshes.len();
+        let (meshes, groups) = (scene.meshes.len(), scene.groups.len());
         return Err(Failure::usage(format!(
-            "the scene has no such tree; write `--tree objects`, or the number of one of its {meshes} meshes, from 0"
+            "the scene has no such tree; write `--tree objects`, the number of one of its {meshes} meshes, from 0, or \
+             `group=` or `copies=` and the number of one of its {groups} groups"
         )));
     };
     let what = match args.what {

@@ -1,4 +1,5 @@
-//! The trees of a scene: one per mesh, over its triangles, and one over the boxes of the objects.
+//! The trees of a scene: one per mesh, over its triangles, one or two per group, over the boxes of its objects and those of its
+//! copies, and one over the boxes of the objects.
 
 use crate::args::value::Tree;
 use crate::diagnose::Failure;
@@ -6,20 +7,20 @@ use crate::exit::Exit;
 use heliostat_geometry::Aabb;
 use heliostat_index::{BspTree, BuildError, BuildParams, MeshTree, TreeStats};
 use heliostat_scene::object::Geometry;
-use heliostat_scene::{Object, Scene};
+use heliostat_scene::{Census, GroupBoxes, Object, Scene};
 
 /// One tree, with what it is over.
 #[derive(Debug)]
 pub(super) struct SceneTree {
     pub(super) which: Tree,
-    /// `objects`, or `mesh 0` and the first object that shows it.
+    /// `objects`, `group 0` or `copies 0` and the name of the group, or `mesh 0` and the first object that shows it.
     pub(super) name: String,
     kind: Kind,
 }
 
 #[derive(Debug)]
 enum Kind {
-    Objects(BspTree),
+    Boxes(BspTree),
     Mesh(MeshTree),
 }
 
@@ -27,7 +28,7 @@ impl SceneTree {
     /// The tree.
     pub(super) fn tree(&self) -> &BspTree {
         match &self.kind {
-            Kind::Objects(tree) => tree,
+            Kind::Boxes(tree) => tree,
             Kind::Mesh(tree) => tree.tree(),
         }
     }
@@ -35,7 +36,7 @@ impl SceneTree {
     /// Its figures.
     pub(super) fn stats(&self) -> TreeStats {
         match &self.kind {
-            Kind::Objects(tree) => tree.stats(),
+            Kind::Boxes(tree) => tree.stats(),
             Kind::Mesh(tree) => tree.stats(),
         }
     }
@@ -49,28 +50,39 @@ pub(super) fn build(scene: &Scene, params: &BuildParams) -> Result<Vec<SceneTree
         let tree = MeshTree::build(mesh, params).map_err(|e| failure(&name, &e))?;
         trees.push(SceneTree { which: Tree::Mesh(number), name, kind: Kind::Mesh(tree) });
     }
-    let boxes: Vec<Aabb> = scene.objects.iter().map(|o| bounds(scene, o)).filter(|b| !b.is_empty()).collect();
-    let tree = BspTree::build(&boxes, params).map_err(|e| failure("objects", &e))?;
-    trees.push(SceneTree { which: Tree::Objects, name: "objects".into(), kind: Kind::Objects(tree) });
+    let census = Census::new(scene).map_err(|e| Failure::new(Exit::Input, e.to_string()))?;
+    let boxes = GroupBoxes::new(scene, &census);
+    for (number, group) in scene.groups.iter().enumerate() {
+        let inside = (Tree::Group(number), "group", boxes.objects(scene, group));
+        let copies = (Tree::Copies(number), "copies", boxes.places(scene, group));
+        for (which, what, boxes) in [inside, copies].into_iter().filter(|(_, _, boxes)| boxes.len() > 1) {
+            trees.push(over_boxes(which, format!("{what} {number} ({})", group.name), boxes, params)?);
+        }
+    }
+    let objects = scene.objects.iter().map(|object| boxes.object(scene, object)).collect();
+    trees.push(over_boxes(Tree::Objects, "objects".to_owned(), objects, params)?);
     Ok(trees)
+}
+
+fn over_boxes(
+    which: Tree,
+    name: String,
+    mut boxes: Vec<Aabb>,
+    params: &BuildParams,
+) -> Result<SceneTree, Failure> {
+    boxes.retain(|bounds| !bounds.is_empty());
+    let tree = BspTree::build(&boxes, params).map_err(|e| failure(&name, &e))?;
+    Ok(SceneTree { which, name, kind: Kind::Boxes(tree) })
 }
 
 /// `mesh 0`, and the name of the first object that shows it.
 pub(super) fn mesh_name(scene: &Scene, number: usize) -> String {
     let shows = |object: &&Object| matches!(object.geometry, Geometry::Mesh(id) if id.index() == number);
-    match scene.objects.iter().find(shows) {
+    let members = scene.groups.iter().flat_map(|group| &group.objects);
+    match scene.objects.iter().chain(members).find(shows) {
         Some(object) => format!("mesh {number} ({})", object.name),
         None => format!("mesh {number}"),
     }
-}
-
-/// The box of an object over the shutter: between two poses every point moves on a straight line.
-fn bounds(scene: &Scene, object: &Object) -> Aabb {
-    let local = match &object.geometry {
-        Geometry::Shape(shape) => shape.geometry().bounds(),
-        Geometry::Mesh(id) => scene.meshes[id.index()].bounds(),
-    };
-    object.motion.poses().iter().fold(Aabb::EMPTY, |all, pose| all.union(pose.bounds(local)))
 }
 
 /// A mesh that no tree can be built over came out of a file.

@@ -2,13 +2,15 @@
 
 use super::Info;
 use crate::diagnose::Failure;
+use crate::exit::Exit;
 use crate::table::{self, Table};
 use heliostat_geometry::{Aabb, Shape};
 use heliostat_io::{OpenOptions, Shot};
+use heliostat_scene::census::Tally;
 use heliostat_scene::light::LightKind;
 use heliostat_scene::object::Geometry;
 use heliostat_scene::texture::Pattern;
-use heliostat_scene::{Object, Scene};
+use heliostat_scene::{Census, Group, GroupId, Object, Scene};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::Path;
@@ -19,16 +21,20 @@ pub(super) fn info(path: &Path) -> Result<Info, Failure> {
     let frames = source.frames();
     let shot = source.shot(source.first_frame())?;
     let frames = frames.map(|f| [*f.start(), *f.end()]);
-    let json = json(path, &shot, frames, source.frame_rate());
+    let json = json(path, &shot, frames, source.frame_rate())?;
     Ok(Info { text: text(&shot, &json), json })
 }
 
-fn json(path: &Path, shot: &Shot, frames: Option<[i32; 2]>, frame_rate: f64) -> Value {
+fn json(path: &Path, shot: &Shot, frames: Option<[i32; 2]>, frame_rate: f64) -> Result<Value, Failure> {
     let Shot { scene, settings, warnings, .. } = shot;
     let each_mesh: usize = scene.meshes.iter().map(|m| m.triangles.len()).sum();
-    let instanced: usize = scene.objects.iter().map(|o| triangles(scene, o)).sum();
+    let census = Census::new(scene).map_err(|e| Failure::new(Exit::Input, e.to_string()))?;
+    let tally = |object: &Object| census.object(scene, object);
+    let sum = |count: fn(&Tally) -> u64| {
+        scene.objects.iter().map(tally).fold(0_u64, |sum, tally| sum.saturating_add(count(&tally)))
+    };
     let bounds = scene.meshes.iter().fold(Aabb::EMPTY, |b, m| b.union(m.bounds()));
-    json!({
+    Ok(json!({
         "path": path.to_string_lossy(),
         "kind": "scene",
         "size": [settings.width, settings.height],
@@ -36,9 +42,11 @@ fn json(path: &Path, shot: &Shot, frames: Option<[i32; 2]>, frame_rate: f64) -> 
         "frames": frames,
         "frame_rate": frame_rate,
         "triangles": each_mesh,
-        "instanced_triangles": instanced,
+        "instanced_triangles": sum(|tally| tally.triangles),
+        "parts": sum(|tally| tally.parts),
         "mesh_bounds": (!bounds.is_empty()).then(|| [bounds.min.to_array(), bounds.max.to_array()]),
-        "objects": scene.objects.iter().map(|o| object(scene, o)).collect::<Vec<_>>(),
+        "objects": scene.objects.iter().map(|o| object(scene, o, tally(o))).collect::<Vec<_>>(),
+        "groups": scene.groups.iter().enumerate().map(|(i, g)| group(g, census.group(GroupId(i as u32)))).collect::<Vec<_>>(),
         "lights": scene.lights.iter().map(|l| json!({
             "name": l.name, "kind": light_kind(&l.kind), "samples": l.samples,
         })).collect::<Vec<_>>(),
@@ -46,27 +54,33 @@ fn json(path: &Path, shot: &Shot, frames: Option<[i32; 2]>, frame_rate: f64) -> 
         "materials": scene.materials.iter().map(|m| m.name.as_str()).collect::<Vec<_>>(),
         "textures": scene.textures.iter().map(|t| texture(&t.name, &t.pattern)).collect::<Vec<_>>(),
         "warnings": warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
-    })
+    }))
 }
 
-fn object(scene: &Scene, object: &Object) -> Value {
+fn object(scene: &Scene, object: &Object, tally: Tally) -> Value {
     json!({
         "name": object.name,
         "kind": match &object.geometry {
             Geometry::Shape(shape) => shape_kind(shape),
             Geometry::Mesh(_) => "mesh",
+            Geometry::Group(_) => "group",
         },
-        "triangles": triangles(scene, object),
+        "triangles": tally.triangles,
+        "parts": tally.parts,
         "materials": object.materials.iter().map(|m| scene.materials[m.index()].name.as_str()).collect::<Vec<_>>(),
         "moving": object.motion.is_moving(),
     })
 }
 
-fn triangles(scene: &Scene, object: &Object) -> usize {
-    match &object.geometry {
-        Geometry::Mesh(id) => scene.meshes[id.index()].triangles.len(),
-        Geometry::Shape(_) => 0,
-    }
+fn group(group: &Group, tally: Tally) -> Value {
+    json!({
+        "name": group.name,
+        "objects": group.objects.len(),
+        "copies": group.places.len(),
+        "parts": tally.parts,
+        "triangles": tally.triangles,
+        "depth": tally.depth,
+    })
 }
 
 fn shape_kind(shape: &Shape) -> &'static str {
@@ -129,6 +143,13 @@ fn text(shot: &Shot, json: &Value) -> String {
         "triangles",
         format!("{}, {} with repetitions", as_count("triangles"), as_count("instanced_triangles")),
     );
+    if !scene.groups.is_empty() {
+        let groups = table::count(scene.groups.len());
+        line(
+            "groups",
+            format!("{groups}, copies included; {} shapes and meshes with repetitions", as_count("parts")),
+        );
+    }
     line("cameras", names(scene.cameras.iter().map(|c| c.name.as_str())));
     line("materials", names(scene.materials.iter().map(|m| m.name.as_str())));
     line("textures", names(scene.textures.iter().map(|t| t.name.as_str())));

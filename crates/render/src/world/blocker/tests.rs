@@ -3,13 +3,14 @@
 use crate::lanes::{LANES, Vec3Lanes, holds, lanes_of};
 use crate::world::place::Place;
 use crate::world::shadow_rays::ShadowRays;
-use crate::world::solid::Solid;
+use crate::world::solid::{Solid, Stock};
 use glam::{DAffine3, DMat3, DQuat, Vec3};
 use heliostat_geometry::shape::{Cuboid, Shape, Sphere};
 use heliostat_geometry::{SurfacePoint, Transform};
 use heliostat_scene::Scene;
 use heliostat_scene::object::Geometry;
 use proptest::prelude::*;
+use std::collections::HashMap;
 
 fn vec3(range: f32) -> impl Strategy<Value = Vec3> {
     prop::array::uniform3(-range..range).prop_map(Vec3::from_array)
@@ -43,7 +44,11 @@ fn local_point() -> impl Strategy<Value = Vec3> {
 fn check(shape: Shape, transform: &Transform, start: Vec3, targets: &[Vec3]) -> Result<usize, TestCaseError> {
     let geometry = Geometry::Shape(shape);
     let scene = Scene::default();
-    let solid = Solid::new(&scene, &[], &geometry, Place::Still(transform));
+    let solid = Solid::new(
+        &Stock { scene: &scene, trees: &[], groups: &HashMap::new() },
+        &geometry,
+        Place::Still(transform),
+    );
     let ng = (transform.point(targets[0]) - transform.point(start)).normalize_or(Vec3::Y);
     let start = SurfacePoint { p: transform.point(start), p_err: Vec3::ZERO, ng }.departure();
     let mut lanes = Vec3Lanes::splat(Vec3::ZERO);

@@ -2,13 +2,14 @@
 
 use super::Bound;
 use crate::world::place::Place;
-use crate::world::solid::Solid;
+use crate::world::solid::{Solid, Stock};
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3};
 use heliostat_geometry::shape::{Cone, Cuboid, Cylinder, Disk, Rectangle, Shape, Sphere, Torus};
 use heliostat_geometry::{Ray, Transform};
 use heliostat_scene::Scene;
 use heliostat_scene::object::Geometry;
 use proptest::prelude::*;
+use std::collections::HashMap;
 
 fn vec3(range: f32) -> impl Strategy<Value = Vec3> {
     prop::array::uniform3(-range..range).prop_map(Vec3::from_array)
@@ -47,7 +48,7 @@ proptest! {
         let transform = Transform::new(DAffine3 { matrix3, translation: to.as_dvec3() }).unwrap();
         let geometry = Geometry::Shape(shape);
         let scene = Scene::default();
-        let solid = Solid::new(&scene, &[], &geometry, Place::Still(&transform));
+        let solid = Solid::new(&Stock { scene: &scene, trees: &[], groups: &HashMap::new() }, &geometry, Place::Still(&transform));
 
         // Through a point of its surface.
         let sample = shape.geometry().sample(Vec2::from_array(u)).unwrap();
@@ -55,7 +56,7 @@ proptest! {
         let origin = if near { to + 0.01 * from } else { from };
         let ray = Ray::new(origin, target - origin).until(beyond);
         prop_assume!(ray.is_valid());
-        if solid.closest(&ray, 0.0).is_some() {
+        if solid.blocks(&ray, 0.0) {
             prop_assert!(Bound::new(&solid).may_meet(&ray));
         }
     }
@@ -65,7 +66,11 @@ proptest! {
 fn far_things_are_not_asked() {
     let geometry = Geometry::Shape(Shape::Cuboid(Cuboid { size: Vec3::ONE }));
     let scene = Scene::default();
-    let solid = Solid::new(&scene, &[], &geometry, Place::Still(&Transform::IDENTITY));
+    let solid = Solid::new(
+        &Stock { scene: &scene, trees: &[], groups: &HashMap::new() },
+        &geometry,
+        Place::Still(&Transform::IDENTITY),
+    );
     let bound = Bound::new(&solid);
     let from = Vec3::new(0.0, 0.0, 5.0);
     assert!(bound.may_meet(&Ray::new(from, Vec3::NEG_Z)));

@@ -1,0 +1,157 @@
+//! What there is in local space, and what rays find there.
+
+use glam::Vec3;
+use heliostat_geometry::shape::Root;
+use heliostat_geometry::{Hit, Ray, Shape, Transform, TriMesh};
+use heliostat_index::{MeshHit, MeshTree, TraversalCost};
+use std::sync::Arc;
+
+/// A shape or a mesh.
+#[derive(Debug)]
+pub(crate) enum Body<'s> {
+    /// An analytic shape.
+    Shape(&'s Shape),
+    /// A mesh with its tree.
+    Mesh { mesh: &'s TriMesh, tree: Arc<MeshTree> },
+}
+
+/// Where a ray meets a body, before the surface there is worked out.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Meeting {
+    /// On a shape.
+    Shape(Root),
+    /// On a mesh.
+    Mesh(MeshHit),
+}
+
+/// Whether anybody looks at the surface parameters of a hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Parameters {
+    Used,
+    /// They may be left out.
+    Unused,
+}
+
+/// The surface at a meeting.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SurfaceAt {
+    /// In world space.
+    pub(crate) hit: Hit,
+    /// Position in local space.
+    pub(crate) local: Vec3,
+    /// Material slot.
+    pub(crate) slot: u16,
+    /// Interpolated vertex colour.
+    pub(crate) color: Option<Vec3>,
+    /// Triangle and weights of its corners.
+    pub(crate) triangle: Option<(u32, [f32; 3])>,
+}
+
+impl Body<'_> {
+    /// The nearest meeting in the range of the ray; `place` is the map to world space.
+    #[inline]
+    pub(super) fn closest(&self, place: &Transform, ray: &Ray) -> Option<(f32, Meeting)> {
+        match self {
+            Self::Shape(shape) => {
+                let root = shape.hit(&place.local_ray(ray))?;
+                Some((root.t as f32, Meeting::Shape(root)))
+            }
+            Self::Mesh { tree, .. } => {
+                let found = tree.closest_hit(&place.ray_to_local(ray))?;
+                Some((found.hit.t, Meeting::Mesh(found)))
+            }
+        }
+    }
+
+    /// [`Body::closest`] that adds the work of the mesh tree to `cost`.
+    pub(super) fn closest_counted(
+        &self,
+        place: &Transform,
+        ray: &Ray,
+        cost: &mut TraversalCost,
+    ) -> Option<(f32, Meeting)> {
+        let Self::Mesh { tree, .. } = self else { return self.closest(place, ray) };
+        let found = tree.closest_hit_counted(&place.ray_to_local(ray), cost)?;
+        Some((found.hit.t, Meeting::Mesh(found)))
+    }
+
+    /// Whether anything lies in the range of the ray.
+    #[inline]
+    pub(super) fn blocks(&self, place: &Transform, ray: &Ray) -> bool {
+        match self {
+            Self::Shape(shape) => shape.hit(&place.local_ray(ray)).is_some(),
+            Self::Mesh { tree, .. } => tree.any_hit(&place.ray_to_local(ray)),
+        }
+    }
+
+    /// Visits every surface in the range of the ray once, in no certain order.
+    pub(super) fn each_surface(&self, place: &Transform, ray: &Ray, mut visit: impl FnMut(SurfaceAt)) {
+        match self {
+            Self::Shape(_) => {
+                let mut rest = *ray;
+                while let Some((t, meeting)) = self.closest(place, &rest) {
+                    self.surface(place, &rest, meeting, Parameters::Used).into_iter().for_each(&mut visit);
+                    rest.range.min = t.next_up();
+                }
+            }
+            Self::Mesh { tree, .. } => tree.for_each_hit(&place.ray_to_local(ray), |found| {
+                let surface = self.surface(place, ray, Meeting::Mesh(found), Parameters::Used);
+                surface.into_iter().for_each(&mut visit);
+            }),
+        }
+    }
+
+    /// Visits every surface of a shape in the range of the ray: where, and its unit normal. `false` for a mesh.
+    pub(super) fn each_crossing(
+        &self,
+        place: &Transform,
+        ray: &Ray,
+        mut visit: impl FnMut(f32, Vec3),
+    ) -> bool {
+        let Self::Shape(shape) = self else { return false };
+        let (local, shape) = (place.local_ray(ray), shape.geometry());
+        shape.each_root(&local, &mut |root| {
+            visit(root.t as f32, place.normal(shape.normal(&local, root).as_vec3()));
+        });
+        true
+    }
+
+    /// The surface at a meeting that came from the same ray and place.
+    #[inline]
+    pub(super) fn surface(
+        &self,
+        place: &Transform,
+        ray: &Ray,
+        meeting: Meeting,
+        parameters: Parameters,
+    ) -> Option<SurfaceAt> {
+        match (self, meeting) {
+            (Self::Shape(shape), Meeting::Shape(root)) => {
+                let (ray, shape) = (place.local_ray(ray), shape.geometry());
+                let local = match parameters {
+                    Parameters::Unused => shape.bare_surface(&ray, root),
+                    Parameters::Used => shape.surface(&ray, root),
+                };
+                Some(SurfaceAt {
+                    hit: place.hit_to_world(&local),
+                    local: local.p.as_vec3(),
+                    slot: 0,
+                    color: None,
+                    triangle: None,
+                })
+            }
+            (Self::Mesh { mesh, .. }, Meeting::Mesh(MeshHit { triangle, hit })) => {
+                let local = mesh.surface(triangle, &hit);
+                Some(SurfaceAt {
+                    hit: place.hit_to_world(&local),
+                    local: local.p.as_vec3(),
+                    slot: mesh.slot(triangle),
+                    color: mesh.color(triangle, &hit),
+                    triangle: Some((triangle, hit.barycentric)),
+                })
+            }
+            // A meeting of the other kind does not come from this body.
+            _ => None,
+        }
+    }
+}
