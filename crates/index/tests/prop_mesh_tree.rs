@@ -103,6 +103,20 @@ proptest! {
         }
     }
 
+    // Many rays at once find what each finds alone, in their order, also when there are more than take turns together.
+    #[test]
+    fn many_rays_find_what_each_finds((mesh, seeds) in scene(), times in 1..9_usize) {
+        let tree = MeshTree::build(&mesh, &BuildParams::BALANCED).unwrap();
+        let rays: Vec<Ray> = seeds.iter().map(|seed| seed.fit(&mesh)).collect::<Vec<_>>().repeat(times);
+        let closest: Vec<_> = rays.iter().map(|ray| tree.closest_hit(ray)).collect();
+        let any: Vec<_> = rays.iter().map(|ray| tree.any_hit(ray)).collect();
+        for backend in Backend::available() {
+            let tree = tree.clone().with_backend(backend);
+            prop_assert_eq!(&tree.closest_hits(&rays), &closest, "{}", backend.name());
+            prop_assert_eq!(&tree.any_hits(&rays), &any, "{}", backend.name());
+        }
+    }
+
     // A promise is a promise, whatever is built.
     #[test]
     fn every_tree_is_valid(mesh in mesh()) {

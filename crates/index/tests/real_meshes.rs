@@ -91,18 +91,18 @@ fn no_ray_leaves_a_closed_mesh() {
         let tree = MeshTree::build(&mesh, &BuildParams::BALANCED).unwrap().with_backend(backend);
         let mut random = Random::new(7);
         let inside = points_inside(&mesh, &tree, &mut random, 64);
-        let stops = |origin: Vec3, dir: Vec3| {
-            let ray = Ray::new(origin, dir);
-            assert!(tree.any_hit(&ray) && tree.closest_hit(&ray).is_some(), "{} {ray:?}", backend.name());
-        };
         for i in 0..each {
             let origin = inside[i as usize % inside.len()];
             let [a, b, c] = mesh.corners(random.below(mesh.triangles.len()) as u32);
             let (u, v) = (random.unit(), random.unit());
-            stops(origin, a - origin);
-            stops(origin, a.lerp(b, u) - origin);
-            stops(origin, a.lerp(b, u).lerp(c, v) - origin);
-            stops(origin, random.direction());
+            let along_edge = a.lerp(b, u);
+            let rays = [a - origin, along_edge - origin, along_edge.lerp(c, v) - origin, random.direction()]
+                .map(|dir| Ray::new(origin, dir));
+            for ray in &rays {
+                assert!(tree.any_hit(ray) && tree.closest_hit(ray).is_some(), "{} {ray:?}", backend.name());
+            }
+            assert!(tree.any_hits(&rays).iter().all(|hit| *hit), "{} {rays:?}", backend.name());
+            assert!(tree.closest_hits(&rays).iter().all(Option::is_some), "{} {rays:?}", backend.name());
         }
     }
 }

@@ -4,19 +4,19 @@
 //! asked of the mesh after the build, its normals and so on, stays in the mesh.
 
 mod block;
+mod queries;
 mod search;
 
 use crate::bsp::build::{LeafLayout, build};
 use crate::bsp::visited::Visited;
 use crate::bsp::{BspTree, BuildError, BuildParams, TreeStats};
 use crate::parallel;
-use crate::simd::{Backend, LANES, Lanes, Task};
-use crate::wide::batch::{Question, walk_together};
-use crate::wide::walk::{Counter, TraversalCost, Uncounted, walk};
+use crate::simd::{Backend, LANES};
+use crate::wide::walk::{Counter, TraversalCost, Uncounted};
 use block::Block;
 use heliostat_geometry::triangle::{TriangleHit, TriangleRay, intersect};
 use heliostat_geometry::{Ray, TriMesh};
-use search::{Any, Each, Nearest};
+use queries::{Closest, ManyClosest, ManyOccluded, Occluded, Visit};
 
 /// A hit on a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -141,121 +141,6 @@ impl MeshTree {
             }
         };
         self.tree.backend().run(Visit { tree: self, ray, visit });
-    }
-}
-
-/// The query for the nearest hit.
-struct Closest<'a, C> {
-    tree: &'a MeshTree,
-    ray: &'a Ray,
-    counter: &'a mut C,
-}
-
-impl<C: Counter> Task for Closest<'_, C> {
-    type Output = Option<MeshHit>;
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) -> Option<MeshHit> {
-        let Self { tree, ray, counter } = self;
-        let mut search = Nearest::new(lanes, tree, ray);
-        walk(lanes, tree.tree.wide(), ray, ray.range.max, &mut search, counter);
-        search.finish()
-    }
-}
-
-/// The query for any hit.
-struct Occluded<'a> {
-    tree: &'a MeshTree,
-    ray: &'a Ray,
-}
-
-impl Task for Occluded<'_> {
-    type Output = bool;
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) -> bool {
-        let Self { tree, ray } = self;
-        let mut search = Any::new(lanes, tree, ray);
-        walk(lanes, tree.tree.wide(), ray, ray.range.max, &mut search, &mut Uncounted);
-        search.found
-    }
-}
-
-/// The query for the nearest hits of many rays.
-struct ManyClosest<'a> {
-    tree: &'a MeshTree,
-    rays: &'a [Ray],
-    hits: &'a mut Vec<Option<MeshHit>>,
-}
-
-impl Task for ManyClosest<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<L: Lanes>(mut self, lanes: L) {
-        walk_together(lanes, self.tree.tree.wide(), self.rays, &mut self);
-    }
-}
-
-impl<'a> Question<'a> for ManyClosest<'a> {
-    type Search = Nearest<'a>;
-
-    #[inline(always)]
-    fn start<L: Lanes>(&self, lanes: L, ray: &'a Ray) -> Nearest<'a> {
-        Nearest::new(lanes, self.tree, ray)
-    }
-
-    #[inline(always)]
-    fn finish(&mut self, search: &Nearest<'a>) {
-        self.hits.push(search.finish());
-    }
-}
-
-/// The query for any hit of many rays.
-struct ManyOccluded<'a> {
-    tree: &'a MeshTree,
-    rays: &'a [Ray],
-    hits: &'a mut Vec<bool>,
-}
-
-impl Task for ManyOccluded<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<L: Lanes>(mut self, lanes: L) {
-        walk_together(lanes, self.tree.tree.wide(), self.rays, &mut self);
-    }
-}
-
-impl<'a> Question<'a> for ManyOccluded<'a> {
-    type Search = Any<'a>;
-
-    #[inline(always)]
-    fn start<L: Lanes>(&self, lanes: L, ray: &'a Ray) -> Any<'a> {
-        Any::new(lanes, self.tree, ray)
-    }
-
-    #[inline(always)]
-    fn finish(&mut self, search: &Any<'a>) {
-        self.hits.push(search.found);
-    }
-}
-
-/// The query that shows all hits to a closure.
-struct Visit<'a, V> {
-    tree: &'a MeshTree,
-    ray: &'a Ray,
-    visit: V,
-}
-
-impl<V: FnMut(MeshHit)> Task for Visit<'_, V> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) {
-        let Self { tree, ray, visit } = self;
-        let mut search = Each::new(lanes, tree, ray, visit);
-        walk(lanes, tree.tree.wide(), ray, ray.range.max, &mut search, &mut Uncounted);
     }
 }
 
