@@ -44,7 +44,7 @@
 //! | [`MIDPOINT`](BuildParams::MIDPOINT) | the longest edge in the middle, until few primitives are left: the classic build | comparing, teaching |
 //! | [`FAST`](BuildParams::FAST) | by the surface area heuristic over boxes | things that change often |
 //! | [`BALANCED`](BuildParams::BALANCED) | by the heuristic over primitives clipped to the cell | anything else: renders use it |
-//! | [`BEST`](BuildParams::BEST) | the same, with smaller leaves and more references | more queries than the build can cost |
+//! | [`BEST`](BuildParams::BEST) | the same, with smaller leaves and more references | meshes on which it is measured to be faster |
 //!
 //! The heuristic cuts where the expected work of a ray is least. It need not cut empty space away, as `MIDPOINT` does: the
 //! boxes of the second form below do that.
@@ -65,7 +65,8 @@
 //!
 //! # What can be asked
 //!
-//! Nearest hit, any hit, all hits: [`RayIndex`] for closures, methods of the same names on [`MeshTree`]. [`BruteForce`]
+//! Nearest hit, any hit, all hits: [`RayIndex`] for closures, methods of the same names on [`MeshTree`], which also takes many
+//! rays at once, for less time each ([`MeshTree::closest_hits`], [`MeshTree::any_hits`]). [`BruteForce`]
 //! (every primitive, always: slow and beyond doubt) answers the same, and [`verify`] holds indices against it, ray by ray.
 //! The examples `picking` and `line_of_sight` show both kinds.
 //!

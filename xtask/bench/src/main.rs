@@ -42,8 +42,13 @@ struct Args {
     #[arg(long, default_value = "", value_name = "TEXT")]
     embree_config: String,
 
-    /// Trees of ours to trace, by preset; the first one is `ours` in ratios
-    #[arg(long, value_delimiter = ',', default_value = "balanced,fast,best,midpoint", value_name = "LIST")]
+    /// Trees of ours to trace, by preset; the first one is `ours` in ratios; `balanced-batch` asks all rays at once
+    #[arg(
+        long,
+        value_delimiter = ',',
+        default_value = "balanced,balanced-batch,fast,best,midpoint",
+        value_name = "LIST"
+    )]
     presets: Vec<String>,
 
     /// Only this back end of ours: portable, sse4.1, avx2 or avx512

@@ -72,7 +72,7 @@ const GRAPH: &[Allowed] = &[
     Allowed {
         package: "xtask-bench",
         inside: &[GEOMETRY, INDEX, IO],
-        outside: &["clap", "glam", "libloading", "obvhs", "rayon", "serde_json"],
+        outside: &["clap", "glam", "cpu-time", "libloading", "obvhs", "rayon", "serde_json"],
     },
     Allowed {
         package: "heliostat-tests",

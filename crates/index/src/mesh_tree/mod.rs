@@ -117,8 +117,8 @@ impl MeshTree {
         self.tree.backend().run(Occluded { tree: self, ray })
     }
 
-    /// [`MeshTree::closest_hit`] of many rays, in their order, in about half the time; rays that start and run alike belong beside
-    /// each other.
+    /// [`MeshTree::closest_hit`] of many rays, in their order, and sooner than one after the other: while one waits for memory,
+    /// others go on. Rays that start and run alike belong beside each other.
     pub fn closest_hits(&self, rays: &[Ray]) -> Vec<Option<MeshHit>> {
         let mut hits = Vec::with_capacity(rays.len());
         self.tree.backend().run(ManyClosest { tree: self, rays, hits: &mut hits });
