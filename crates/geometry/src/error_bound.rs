@@ -157,6 +157,16 @@ pub fn sheared_corner(reach: f32) -> f32 {
     gamma(6) * reach
 }
 
+/// The least area of a triangle whose `f64` areas, differences of products that add up to `products`, tell where it is hit to more
+/// digits than an `f32` holds.
+///
+/// The six products are rounded twice each; divided by the area that is the part of the triangle by which the hit moves, and this
+/// keeps it below an eighth of the unit roundoff.
+#[inline]
+pub fn least_area(products: f64) -> f64 {
+    gamma_f64(12) * products * (8.0 / f64::from(UNIT_ROUNDOFF))
+}
+
 /// Bound, in lengths, of how far beside the true ray the rounded one may seem to run where it is compared with a
 /// plane, or a triangle, up to `distance` from its origin. `size` is the size of the triangle. Linear in both.
 ///

@@ -10,7 +10,7 @@
 //! # Source
 //! Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
 
-use crate::error_bound::sheared_corner;
+use crate::error_bound::{least_area, sheared_corner};
 use crate::ray::{Interval, Ray};
 use glam::{DVec3, Vec3, Vec3A, Vec3Swizzles, Vec4, Vec4Swizzles};
 
@@ -174,16 +174,21 @@ pub fn intersect_inside(ray: &TriangleRay, corners: [Vec3; 3]) -> Option<Triangl
     let inverse = 1.0 / dir.z;
     let x = x - dir.x * inverse * z;
     let y = y - dir.y * inverse * z;
-    let areas = x.zxyw() * y.yzxw() - y.zxyw() * x.yzxw();
+    let products = x.zxyw() * y.yzxw();
+    let areas = products - y.zxyw() * x.yzxw();
     let differ = (areas.x.to_bits() ^ areas.y.to_bits()) | (areas.x.to_bits() ^ areas.z.to_bits());
     let is_inside = differ >> (u64::BITS - 1) == 0;
+    // Where the products all but cancel, on slivers and edge on, rounding turns the weights.
+    let area = areas.x + areas.y + areas.z;
+    let size = products.abs();
+    let is_sharp = area.abs() > least_area(size.x + size.y + size.z);
     // The mean of the depths, weighted by the areas.
-    let weights = areas * (1.0 / (areas.x + areas.y + areas.z));
+    let weights = areas * (1.0 / area);
     let depths = weights * z;
     let t = ((depths.x + depths.y + depths.z) * inverse) as f32;
     let barycentric = weights.xyz().as_vec3().to_array();
     // Without an area the mean is not a number.
-    (is_inside & (t.abs() < f32::INFINITY)).then_some(TriangleHit { t, barycentric })
+    (is_inside & is_sharp & (t.abs() < f32::INFINITY)).then_some(TriangleHit { t, barycentric })
 }
 
 /// The hit of a ray that meets a triangle where its corners are seen, but so near to an edge, or so near to seeing it edge on,
