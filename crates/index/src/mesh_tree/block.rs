@@ -16,21 +16,23 @@ use heliostat_geometry::{Interval, Ray};
 pub(super) struct Block([[Row; 3]; 3]);
 
 impl Block {
-    /// Triangles side by side, and a bit for each that is there. Those without area are left out: what the lanes are certain of
-    /// is then a hit.
-    pub(super) fn new(triangles: impl Iterator<Item = Option<[Vec3; 3]>>) -> (Self, u8) {
+    /// Triangles side by side; in the place of one that is missing lies a point.
+    pub(super) fn new(triangles: impl Iterator<Item = Option<[Vec3; 3]>>) -> Self {
         let mut block = Self([[Row([0.0; LANES]); 3]; 3]);
-        let mut present = 0;
         for (lane, corners) in triangles.enumerate() {
-            let Some(corners) = corners.filter(|&corners| !is_flat(corners)) else { continue };
-            present |= 1 << lane;
+            let Some(corners) = corners else { continue };
             for (axis, rows) in block.0.iter_mut().enumerate() {
                 for (row, corner) in rows.iter_mut().zip(corners) {
                     row.0[lane] = corner[axis];
                 }
             }
         }
-        (block, present)
+        block
+    }
+
+    /// A bit for each triangle with an area. Others are never met; so what the lanes are certain of among these is a hit.
+    pub(super) fn present(&self) -> u8 {
+        (0..LANES).fold(0, |bits, lane| bits | u8::from(!is_flat(self.corners(lane))) << lane)
     }
 
     /// The corners of a triangle.

@@ -17,6 +17,7 @@ use block::Block;
 use heliostat_geometry::triangle::{TriangleHit, TriangleRay, intersect};
 use heliostat_geometry::{Ray, TriMesh};
 use queries::{Closest, ManyClosest, ManyOccluded, Occluded, Visit};
+use std::time::Instant;
 
 /// A hit on a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,8 +61,9 @@ pub struct MeshTree {
     tree: BspTree,
     /// The triangles of the references of the tree, group by group.
     blocks: Vec<Block>,
-    /// For each block, a bit for each lane that holds a triangle.
+    /// For each block, a bit for each lane that holds a triangle with an area.
     present: Vec<u8>,
+    build_seconds: f64,
 }
 
 impl MeshTree {
@@ -70,14 +72,16 @@ impl MeshTree {
     /// # Errors
     /// When the mesh is [not valid](TriMesh::validate), or for the reasons of [`BspTree::build`].
     pub fn build(mesh: &TriMesh, params: &BuildParams) -> Result<Self, BuildError> {
+        let begin = Instant::now();
         mesh.validate().map_err(BuildError::Mesh)?;
         let tree = build(mesh, params, LeafLayout { group: LANES })?;
         // What fills a group up repeats its last triangle.
         let is_new = |group: &[u32], lane: usize| lane == 0 || group[lane] != group[lane - 1];
         let triangle = |group: &[u32], lane: usize| is_new(group, lane).then(|| mesh.corners(group[lane]));
         let block = |group: &[u32]| Block::new((0..LANES).map(|lane| triangle(group, lane)));
-        let (blocks, present) = parallel::map_chunks(tree.leaf_refs(), LANES, block).into_iter().unzip();
-        Ok(Self { tree, blocks, present })
+        let blocks = parallel::map_chunks(tree.leaf_refs(), LANES, block);
+        let present = parallel::map_chunks(&blocks, 1, |block: &[Block]| block[0].present());
+        Ok(Self { tree, blocks, present, build_seconds: begin.elapsed().as_secs_f64() })
     }
 
     /// The tree inside.
@@ -85,10 +89,11 @@ impl MeshTree {
         &self.tree
     }
 
-    /// [`BspTree::stats`], with the bytes of the triangles that were laid out.
+    /// [`BspTree::stats`], with the triangles that were laid out: their bytes, and the time that took.
     pub fn stats(&self) -> TreeStats {
         let stats = self.tree.stats();
-        TreeStats { bytes: stats.bytes + self.blocks.len() * (size_of::<Block>() + 1), ..stats }
+        let bytes = stats.bytes + self.blocks.len() * (size_of::<Block>() + 1);
+        TreeStats { bytes, build_seconds: self.build_seconds, ..stats }
     }
 
     /// The same tree, walked by another back end.
