@@ -14,6 +14,7 @@ fn rich_triangle() -> TriMesh {
         colors: vec![Vec3::X, Vec3::Y, Vec3::Z],
         triangles: vec![[0, 1, 2]],
         slots: vec![3],
+        ..TriMesh::default()
     }
 }
 

@@ -1,10 +1,10 @@
 //! Materials at a point: the textured description becomes a few numbers.
 
 use crate::texture_eval::{self, TexturePoint, uv_step};
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 use heliostat_geometry::Hit;
 use heliostat_scene::color::luminance;
-use heliostat_scene::material::{ColorInput, FloatInput, FresnelMode, Material, Phong, Relief};
+use heliostat_scene::material::{Channel, ColorInput, FloatInput, FresnelMode, Material, Phong, Relief};
 use heliostat_scene::{Rgb, Texture, TextureId};
 
 /// Phong's surface at one point; see [`Phong`] for the meaning of the fields.
@@ -74,7 +74,7 @@ impl MaterialEval<'_> {
     fn float(&self, input: &FloatInput) -> f32 {
         match input.texture {
             None => input.factor,
-            Some(id) => input.factor * luminance(self.texture(id).truncate()),
+            Some(id) => input.factor * channel(self.texture(id), input.channel),
         }
     }
 
@@ -82,7 +82,11 @@ impl MaterialEval<'_> {
     pub(crate) fn opacity(&self, material: &Material) -> f32 {
         let coverage = |id: TextureId| texture_eval::coverage(&self.textures[id.index()], &self.at);
         let coverage = material.opacity.texture.map_or(1.0, coverage);
-        (material.opacity.factor * coverage).clamp(0.0, 1.0)
+        let opacity = (material.opacity.factor * coverage).clamp(0.0, 1.0);
+        match material.cutoff {
+            None => opacity,
+            Some(cutoff) => f32::from(u8::from(opacity >= cutoff)),
+        }
     }
 
     /// The shading normal `ns`, bent by the relief of the material; unit, on the side of `ns`.
@@ -128,7 +132,18 @@ impl MaterialEval<'_> {
         Some(slope.x * tangent + slope.y * bitangent + up * ns)
     }
 
-    fn texture(&self, id: TextureId) -> glam::Vec4 {
+    fn texture(&self, id: TextureId) -> Vec4 {
         texture_eval::eval(&self.textures[id.index()], &self.at)
+    }
+}
+
+/// One number of a texture's value.
+fn channel(value: Vec4, channel: Channel) -> f32 {
+    match channel {
+        Channel::Luminance => luminance(value.truncate()),
+        Channel::R => value.x,
+        Channel::G => value.y,
+        Channel::B => value.z,
+        Channel::A => value.w,
     }
 }

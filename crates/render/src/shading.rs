@@ -8,7 +8,7 @@ use crate::texture_eval::TexturePoint;
 use crate::world::{SurfaceHit, World};
 use glam::Vec3;
 use heliostat_geometry::SurfacePoint;
-use heliostat_scene::material::{FresnelMode, Surface};
+use heliostat_scene::material::FresnelMode;
 use heliostat_scene::{MaterialId, Rgb};
 
 /// A surface point seen from one side.
@@ -54,7 +54,6 @@ impl<'a> ShadingPoint<'a> {
     ) -> Self {
         let scene = world.scene();
         let material = &scene.materials[material.index()];
-        let Surface::Phong(phong) = &material.surface;
         let at = TexturePoint { uv: surface.hit.uv, local: surface.local };
         let eval = MaterialEval { textures: &scene.textures, at };
 
@@ -73,7 +72,7 @@ impl<'a> ShadingPoint<'a> {
             ns: towards(bent, view),
             time,
             opacity: eval.opacity(material),
-            phong: eval.phong(phong, surface.color),
+            phong: eval.phong(&material.surface.phong(), surface.color),
         }
     }
 

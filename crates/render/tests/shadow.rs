@@ -234,7 +234,9 @@ fn layers_of_half_opacity_multiply_and_make_alpha() {
     assert_eq!((seen.radiance.y, seen.alpha), (0.875, 0.875));
     // Half of the light comes through each.
     stage.scene.materials.iter_mut().for_each(|material| {
-        let heliostat_scene::material::Surface::Phong(phong) = &mut material.surface;
+        let heliostat_scene::material::Surface::Phong(phong) = &mut material.surface else {
+            panic!("not the report\'s surface")
+        };
         *phong = black();
     });
     let floor = Stage { scene: stage.scene, settings: stage.settings }

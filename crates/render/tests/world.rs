@@ -222,7 +222,10 @@ fn scenes_that_do_not_hold_together_are_refused_by_name() {
             stage.scene.objects[0].geometry = geometry;
         },
         &|stage| {
-            let heliostat_scene::material::Surface::Phong(phong) = &mut stage.scene.materials[0].surface;
+            let heliostat_scene::material::Surface::Phong(phong) = &mut stage.scene.materials[0].surface
+            else {
+                panic!("not the report\'s surface")
+            };
             phong.mirror = ColorInput { factor: Rgb::ONE, texture: Some(TextureId(2)) };
         },
     ];

@@ -3,7 +3,6 @@
 
 use crate::group::Group;
 use crate::ids::GroupId;
-use crate::material::Surface;
 use crate::object::{Geometry, Object};
 use crate::scene::Scene;
 use std::fmt;
@@ -93,8 +92,7 @@ impl Census {
 }
 
 fn shines(scene: &Scene, material: usize) -> bool {
-    let Surface::Phong(phong) = &scene.materials[material].surface;
-    !phong.emission.is_zero()
+    !scene.materials[material].surface.emission().is_zero()
 }
 
 struct Counter<'s> {

@@ -37,9 +37,21 @@ pub enum CheckerSpace {
     Local,
 }
 
+/// One of the two sets of surface parameters that a mesh may have.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum UvSet {
+    /// `uvs`.
+    #[default]
+    First,
+    /// `uvs1`; the first ones where there are none.
+    Second,
+}
+
 /// Scale, then turn, then shift of the surface parameters, before a texture looks at them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UvTransform {
+    /// Which surface parameters of a mesh.
+    pub set: UvSet,
     /// Repetitions per unit of `uv`.
     pub scale: Vec2,
     /// Counter-clockwise turn in radians.
@@ -50,7 +62,7 @@ pub struct UvTransform {
 
 impl Default for UvTransform {
     fn default() -> Self {
-        Self { scale: Vec2::ONE, rotation: 0.0, offset: Vec2::ZERO }
+        Self { set: UvSet::First, scale: Vec2::ONE, rotation: 0.0, offset: Vec2::ZERO }
     }
 }
 

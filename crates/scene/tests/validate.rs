@@ -96,7 +96,7 @@ fn broken(sentence: &str, change: impl FnOnce(&mut Scene)) {
 }
 
 fn phong(scene: &mut Scene) -> &mut Phong {
-    let Surface::Phong(phong) = &mut scene.materials[0].surface;
+    let Surface::Phong(phong) = &mut scene.materials[0].surface else { panic!("not the report\'s surface") };
     phong
 }
 

@@ -9,7 +9,7 @@ mod validate;
 pub use validate::MeshError;
 
 use crate::aabb::Aabb;
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3, Vec4};
 
 /// Triangles over shared vertices. Vertex arrays other than the positions are empty or of the same length.
 ///
@@ -33,6 +33,13 @@ pub struct TriMesh {
     pub normals: Vec<Vec3>,
     /// Texture coordinates per vertex, v up; may be empty.
     pub uvs: Vec<Vec2>,
+    /// A second set of texture coordinates per vertex; may be empty.
+    pub uvs1: Vec<Vec2>,
+    /// Unit tangents per vertex along which normal maps were made, and in `w` which way the bitangent
+    /// `w * normal x tangent` goes, 1 or -1; may be empty.
+    pub tangents: Vec<Vec4>,
+    /// Coverage in `[0, 1]` per vertex; may be empty.
+    pub opacities: Vec<f32>,
     /// Linear Rec.709 colours per vertex; may be empty.
     pub colors: Vec<Vec3>,
     /// Corners of each triangle, counter-clockwise seen from outside.

@@ -9,7 +9,7 @@ use std::fmt;
 pub enum MeshError {
     /// A vertex array is neither empty nor as long as the positions, or the slots as long as the triangles.
     Length {
-        /// Which array: `"normals"`, `"uvs"`, `"colors"` or `"slots"`.
+        /// Which array, by the name of its field.
         array: &'static str,
         /// Its length.
         found: usize,
@@ -27,7 +27,7 @@ pub enum MeshError {
     },
     /// A number of a vertex is infinite or not a number.
     NotFinite {
-        /// Which array: `"positions"`, `"normals"`, `"uvs"` or `"colors"`.
+        /// Which array, by the name of its field.
         array: &'static str,
         /// The vertex.
         vertex: usize,
@@ -74,7 +74,10 @@ impl TriMesh {
         };
         fits("normals", self.normals.len(), vertices)?;
         fits("uvs", self.uvs.len(), vertices)?;
+        fits("uvs1", self.uvs1.len(), vertices)?;
+        fits("tangents", self.tangents.len(), vertices)?;
         fits("colors", self.colors.len(), vertices)?;
+        fits("opacities", self.opacities.len(), vertices)?;
         fits("slots", self.slots.len(), self.triangles.len())?;
         for (triangle, corners) in self.triangles.iter().enumerate() {
             if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= vertices) {
@@ -88,6 +91,9 @@ impl TriMesh {
         finite("positions", self.positions.iter().position(|v| !v.is_finite()))?;
         finite("normals", self.normals.iter().position(|v| !v.is_finite()))?;
         finite("uvs", self.uvs.iter().position(|v| !v.is_finite()))?;
-        finite("colors", self.colors.iter().position(|v| !v.is_finite()))
+        finite("uvs1", self.uvs1.iter().position(|v| !v.is_finite()))?;
+        finite("tangents", self.tangents.iter().position(|v| !v.is_finite()))?;
+        finite("colors", self.colors.iter().position(|v| !v.is_finite()))?;
+        finite("opacities", self.opacities.iter().position(|v| !v.is_finite()))
     }
 }

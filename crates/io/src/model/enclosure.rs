@@ -3,7 +3,6 @@
 use super::shaded_areas;
 use glam::{DVec3, Vec3};
 use heliostat_geometry::Aabb;
-use heliostat_scene::material::Surface;
 use heliostat_scene::{Material, Scene};
 
 /// A triangle lies in a side of the box when its corners are at most this part of the box away from it.
@@ -52,8 +51,7 @@ fn covered_shares(scene: &Scene, bounds: Aabb) -> [[f64; 2]; 3] {
 
 /// Glass and water are no walls.
 fn is_opaque(material: &Material) -> bool {
-    let Surface::Phong(phong) = &material.surface;
-    phong.transparency.is_zero() && material.opacity.factor >= 1.0
+    !material.surface.refracts() && material.opacity.factor >= 1.0
 }
 
 #[cfg(test)]

@@ -16,7 +16,6 @@ use fit::{View, fit};
 use glam::{DVec3, Vec3};
 use heliostat_geometry::{Aabb, TriMesh};
 use heliostat_scene::camera::Projection;
-use heliostat_scene::material::Surface;
 use heliostat_scene::object::Geometry;
 use heliostat_scene::{Camera, Material, Motion, Scene};
 use stance::stance;
@@ -82,11 +81,7 @@ pub fn exposure_of(scene: &Scene) -> f32 {
 
 /// Whether any material refracts: then light passes through it to what lies behind.
 pub fn has_glass(scene: &Scene) -> bool {
-    let refracts = |material: &Material| {
-        let Surface::Phong(phong) = &material.surface;
-        !phong.transparency.is_zero()
-    };
-    scene.materials.iter().any(refracts)
+    scene.materials.iter().any(|material| material.surface.refracts())
 }
 
 fn bounds_of(scene: &Scene) -> Aabb {

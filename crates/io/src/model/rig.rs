@@ -7,7 +7,6 @@ use heliostat_geometry::shape::Rectangle;
 use heliostat_geometry::{Aabb, Shape, Transform};
 use heliostat_scene::color::luminance;
 use heliostat_scene::light::{Falloff, LightKind};
-use heliostat_scene::material::Surface;
 use heliostat_scene::object::Geometry;
 use heliostat_scene::scene::Background;
 use heliostat_scene::{Light, Rgb, Scene};
@@ -50,9 +49,9 @@ pub(super) fn light(scene: &mut Scene, bounds: Aabb, view: &View, is_inside: boo
 fn own_irradiance(scene: &Scene, bounds: Aabb) -> Rgb {
     let mut flux = Rgb::ZERO;
     for (material, _, doubled_area) in shaded_areas(scene) {
-        let Surface::Phong(phong) = &material.surface;
-        if !phong.emission.is_zero() {
-            flux += PI * phong.emission.factor * (0.5 * doubled_area.length()) as f32;
+        let emission = material.surface.emission();
+        if !emission.is_zero() {
+            flux += PI * emission.factor * (0.5 * doubled_area.length()) as f32;
         }
     }
     let area = bounds.surface_area() as f32;

@@ -3,9 +3,9 @@
 use super::ObjModel;
 use super::build::unique;
 use heliostat_geometry::Transform;
-use heliostat_scene::material::{ColorInput, FloatInput, Phong, Relief, Surface};
+use heliostat_scene::material::Relief;
 use heliostat_scene::object::Geometry;
-use heliostat_scene::{Material, MaterialId, MeshId, Motion, Object, Scene, TextureId};
+use heliostat_scene::{Material, MaterialId, MeshId, Motion, Object, Scene};
 use std::collections::HashSet;
 use std::ops::Range;
 
@@ -93,28 +93,10 @@ fn prefixed(prefix: &str, name: &str) -> String {
 
 /// The material with its texture ids counted from `first_texture` and its bump scaled.
 fn moved(material: &Material, first_texture: u32, scale: f32) -> Material {
-    let id = |texture: TextureId| TextureId(texture.0 + first_texture);
-    let color = |input: ColorInput| ColorInput { texture: input.texture.map(id), ..input };
-    let float = |input: FloatInput| FloatInput { texture: input.texture.map(id), ..input };
-    let Surface::Phong(phong) = &material.surface;
-    Material {
-        name: material.name.clone(),
-        surface: Surface::Phong(Phong {
-            ambient: color(phong.ambient),
-            diffuse: color(phong.diffuse),
-            specular: color(phong.specular),
-            shininess: float(phong.shininess),
-            emission: color(phong.emission),
-            mirror: color(phong.mirror),
-            transparency: color(phong.transparency),
-            ..phong.clone()
-        }),
-        opacity: float(material.opacity),
-        relief: material.relief.map(|relief| match relief {
-            Relief::Bump { texture, strength } => {
-                Relief::Bump { texture: id(texture), strength: strength * scale }
-            }
-            Relief::Normal { texture, strength } => Relief::Normal { texture: id(texture), strength },
-        }),
+    let mut material = material.clone();
+    material.each_texture(|id| id.0 += first_texture);
+    if let Some(Relief::Bump { strength, .. }) = &mut material.relief {
+        *strength *= scale;
     }
+    material
 }

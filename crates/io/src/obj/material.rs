@@ -19,7 +19,7 @@ use super::channel::Role;
 use super::map::Map;
 use super::mtl::MtlMaterial;
 use super::textures::Textures;
-use heliostat_scene::material::{ColorInput, FloatInput, FresnelMode, Phong, Relief, Surface};
+use heliostat_scene::material::{ColorInput, FloatInput, FresnelMode, Phong, Relief};
 use heliostat_scene::{Material, Rgb, TextureId};
 
 /// Reflectance of a surface that nothing is known of.
@@ -59,10 +59,9 @@ pub(super) fn convert(mtl: &MtlMaterial, model_size: f32, textures: &mut Texture
         refract(&mut phong, mtl, coverage);
     }
     Material {
-        name: mtl.name.clone(),
-        surface: Surface::Phong(phong),
         opacity: opacity(mtl, if refracts { 1.0 } else { coverage }, textures),
         relief: relief(mtl, model_size, textures),
+        ..Material::new(&mtl.name, phong)
     }
 }
 
@@ -103,8 +102,8 @@ fn shininess(mtl: &MtlMaterial, textures: &mut Textures<'_, '_>) -> FloatInput {
     match &mtl.map_shininess {
         None => FloatInput::constant(written.unwrap_or(Phong::default().shininess.factor)),
         Some(map) => FloatInput {
-            factor: written.unwrap_or(FULL_SHINE) * map.gain,
             texture: textures.number(map, Role::Number(map.channel)),
+            ..FloatInput::constant(written.unwrap_or(FULL_SHINE) * map.gain)
         },
     }
 }
@@ -133,7 +132,7 @@ fn opacity(mtl: &MtlMaterial, coverage: f32, textures: &mut Textures<'_, '_>) ->
     };
     let texture = textures.number(map, Role::Coverage(map.channel));
     let factor = if coverage == 0.0 && texture.is_some() { 1.0 } else { coverage };
-    FloatInput { factor, texture }
+    FloatInput { texture, ..FloatInput::constant(factor) }
 }
 
 fn relief(mtl: &MtlMaterial, model_size: f32, textures: &mut Textures<'_, '_>) -> Option<Relief> {

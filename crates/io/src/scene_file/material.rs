@@ -26,7 +26,7 @@ use super::number::{Fraction, NonNegative, Number, Positive};
 use super::texturable::{Texturable, Textured};
 use super::value::Color;
 use crate::document::{Fault, Placed};
-use heliostat_scene::material::{ColorInput, FloatInput, FresnelMode, Material, Phong, Relief, Surface};
+use heliostat_scene::material::{ColorInput, FloatInput, FresnelMode, Material, Phong, Relief};
 use heliostat_scene::{Rgb, TextureId};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -120,10 +120,9 @@ impl MaterialTable {
         };
         let one = FloatInput::constant(1.0);
         Ok(Material {
-            name: self.name.to_string(),
-            surface: Surface::Phong(phong),
             opacity: float_input(self.opacity.as_ref(), Fraction::f32, one, TextureUse::Coverage, textures)?,
             relief: self.relief(textures)?,
+            ..Material::new(self.name.to_string(), phong)
         })
     }
 
@@ -193,8 +192,8 @@ fn float_input<T: Copy>(
         None => Ok(absent),
         Some(Texturable::Constant(value)) => Ok(FloatInput::constant(single(*value))),
         Some(Texturable::Texture(Textured { texture, factor })) => Ok(FloatInput {
-            factor: factor.map_or(1.0, single),
             texture: Some(textures.find(texture, used_for)?),
+            ..FloatInput::constant(factor.map_or(1.0, single))
         }),
     }
 }

@@ -25,7 +25,7 @@ use super::value::{Color, Splat};
 use crate::document::{Fault, Placed, Span};
 use crate::error::quote;
 use glam::Vec2;
-use heliostat_scene::texture::{CheckerSpace, Filtering, Pattern, UvTransform, Wrap};
+use heliostat_scene::texture::{CheckerSpace, Filtering, Pattern, UvSet, UvTransform, Wrap};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -170,6 +170,7 @@ impl TextureTable {
     pub(super) fn uv_transform(&self) -> UvTransform {
         let scale = self.scale.map_or([1.0; 2], |scale| scale.values().map(NonZero::f32));
         UvTransform {
+            set: UvSet::First,
             scale: Vec2::from_array(scale),
             rotation: self.rotation.as_ref().map_or(0.0, |r| r.get().to_radians() as f32),
             offset: self.offset.as_ref().map_or(Vec2::ZERO, |o| Vec2::from_array(o.map(Number::f32))),

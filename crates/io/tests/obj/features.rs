@@ -37,7 +37,7 @@ fn material(mtl: &str) -> (Material, ObjModel) {
 }
 
 fn phong(mtl: &str) -> Phong {
-    let Surface::Phong(phong) = material(mtl).0.surface;
+    let Surface::Phong(phong) = material(mtl).0.surface else { panic!("not the report\'s surface") };
     phong
 }
 
@@ -325,7 +325,7 @@ fn textures_are_read_with_their_options() {
     let (material, model) = material(
         "Kd 0.5 0.5 0.5\nmap_Kd -s 2 3 1 -o 0.25 0 0 -clamp on wood.png\nmap_Ks -s 2 3 1 -o 0.25 0 0 -clamp on wood.png",
     );
-    let Surface::Phong(p) = material.surface;
+    let Surface::Phong(p) = material.surface else { panic!("not the report\'s surface") };
     assert_eq!(p.diffuse.factor, Rgb::splat(0.5));
     // The same file in the same place is the same texture.
     assert_eq!((p.diffuse.texture, model.textures.len()), (p.specular.texture, 1));

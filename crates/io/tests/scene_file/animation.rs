@@ -88,7 +88,9 @@ fn numbers_of_every_section_move() {
     let eye = middle("camera.main.position", "[[0, [1, 1, 1]], [2, [3, 3, 3]]]");
     assert_eq!(eye.scene.cameras[0].motion.first().translation.to_array(), [2.0; 3]);
     let glass = middle("material.glass.phong.ior", number);
-    let Surface::Phong(phong) = &glass.scene.materials[0].surface;
+    let Surface::Phong(phong) = &glass.scene.materials[0].surface else {
+        panic!("not the report\'s surface")
+    };
     assert_eq!(phong.ior, 2.0);
     let light = middle("light.key.point.position.2", number);
     let LightKind::Point { position, .. } = light.scene.lights[0].kind else { panic!() };

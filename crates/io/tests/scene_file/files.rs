@@ -132,13 +132,13 @@ fn maps_of_numbers_are_read_as_they_are_and_colours_as_srgb() {
         other => panic!("{other:?}"),
     };
     let [material, leaf] = &shot.scene.materials[..] else { panic!() };
-    let Surface::Phong(phong) = &material.surface;
+    let Surface::Phong(phong) = &material.surface else { panic!("not the report\'s surface") };
     assert_eq!(encoding(phong.diffuse.texture), Encoding::Srgb);
     assert_eq!(encoding(phong.shininess.texture), Encoding::Linear);
     assert_eq!(encoding(material.opacity.texture), Encoding::Linear, "a mask without alpha");
     let Some(Relief::Normal { texture, .. }) = material.relief else { panic!() };
     assert_eq!(encoding(Some(texture)), Encoding::Srgb, "the file says so");
-    let Surface::Phong(phong) = &leaf.surface;
+    let Surface::Phong(phong) = &leaf.surface else { panic!("not the report\'s surface") };
     assert_eq!(leaf.opacity.texture, phong.diffuse.texture, "alpha has no encoding");
 }
 

@@ -12,7 +12,6 @@ use glam::{Vec2, Vec3};
 use heliostat_geometry::shape::Sphere;
 use heliostat_geometry::{Aabb, Shape, SurfacePoint, Transform};
 use heliostat_scene::light::{Falloff, LightKind};
-use heliostat_scene::material::Surface;
 use heliostat_scene::object::Geometry;
 use heliostat_scene::{Light, Object, Rgb, Scene};
 
@@ -157,8 +156,8 @@ impl<'s> AreaLight<'s> {
         still: Option<Now<'s>>,
     ) -> Option<Self> {
         let shines = |slot: u16| {
-            let Surface::Phong(phong) = &scene.materials[object.material(slot).index()].surface;
-            !phong.emission.is_zero()
+            let material = &scene.materials[object.material(slot).index()];
+            !material.surface.emission().is_zero()
         };
         Some(Self {
             emitter: Emitter::new(scene, &object.geometry, shines)?,
@@ -272,10 +271,9 @@ impl<'s> AreaLight<'s> {
             Radiance::Constant(radiance) => radiance,
             Radiance::Object(scene, object) => {
                 let material = &scene.materials[object.material(sample.slot).index()];
-                let Surface::Phong(phong) = &material.surface;
                 let at = TexturePoint { uv: sample.point.uv, local: sample.point.p.as_vec3() };
                 let eval = MaterialEval { textures: &scene.textures, at };
-                eval.opacity(material) * eval.color(&phong.emission)
+                eval.opacity(material) * eval.color(&material.surface.emission())
             }
         }
     }

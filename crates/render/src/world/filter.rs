@@ -8,7 +8,7 @@ use crate::phong::fresnel_at;
 use crate::texture_eval::TexturePoint;
 use glam::Vec3;
 use heliostat_geometry::{Ray, Transform};
-use heliostat_scene::material::{FresnelMode, Phong, Surface};
+use heliostat_scene::material::{FresnelMode, Phong};
 use heliostat_scene::{Material, Object, Rgb, Scene};
 use pulp::NullaryFnOnce;
 
@@ -66,7 +66,7 @@ impl Filter<'_> {
     /// The surface where it is the same everywhere on the thing.
     pub(super) fn plain(&self) -> Option<Pane> {
         let material: &Material = &self.scene.materials[self.object.material(0).index()];
-        let Surface::Phong(phong) = &material.surface;
+        let phong = &*material.surface.phong();
         let is_plain = material.opacity.texture.is_none() && phong.transparency.texture.is_none();
         is_plain.then(|| self.pane(material.opacity.factor.clamp(0.0, 1.0), phong.transparency.factor, phong))
     }
@@ -76,7 +76,7 @@ impl Filter<'_> {
         let material: &Material = &self.scene.materials[self.object.material(surface.slot).index()];
         let at = TexturePoint { uv: surface.hit.uv, local: surface.local };
         let eval = MaterialEval { textures: &self.scene.textures, at };
-        let Surface::Phong(phong) = &material.surface;
+        let phong = &*material.surface.phong();
         self.pane(eval.opacity(material), eval.color(&phong.transparency), phong)
     }
 

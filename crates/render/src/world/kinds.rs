@@ -5,7 +5,7 @@ use super::body::Parameters;
 use super::place::Place;
 use super::solid::Content;
 use heliostat_scene::light::LightKind;
-use heliostat_scene::material::{Material, Surface};
+use heliostat_scene::material::Material;
 use heliostat_scene::object::Geometry;
 use heliostat_scene::settings::Layers;
 use heliostat_scene::{MaterialId, Object, Scene, TextureId};
@@ -41,12 +41,7 @@ pub(super) fn visible_lights(scene: &Scene) -> impl Iterator<Item = (u32, (&Geom
 
 /// How an object stops light, by all of its materials or by what its group holds.
 pub(super) fn shadow_of(scene: &Scene, object: &Object, content: &Content<'_>, glass: bool) -> Shadow {
-    let lets_through = |material: &Material| {
-        let Surface::Phong(phong) = &material.surface;
-        material.opacity.factor < 1.0
-            || material.opacity.texture.is_some()
-            || (glass && !phong.transparency.is_zero())
-    };
+    let lets_through = |material: &Material| material.has_holes() || (glass && material.surface.refracts());
     match content {
         _ if !object.casts_shadow => Shadow::NONE,
         Content::Group(group) => group.shadow(),
@@ -63,7 +58,7 @@ pub(super) fn parameters_of(scene: &Scene, object: &Object, layers: &Layers) -> 
     let material = |id: &MaterialId| {
         let material = &scene.materials[id.index()];
         // A relief bends the normal along the tangents.
-        material.relief.is_some() || material.textures().any(looks)
+        material.relief.is_some() || material.textures().into_iter().any(looks)
     };
     if layers.uv || object.materials.iter().any(material) { Parameters::Used } else { Parameters::Unused }
 }

@@ -5,7 +5,6 @@ use super::issue::{ItemKind, Problem};
 use crate::camera::{Camera, Projection};
 use crate::image::{Image, Samples};
 use crate::light::LightKind;
-use crate::material::{ColorInput, FloatInput, Material, Phong, Relief, Surface};
 use crate::object::{Geometry, Object};
 use crate::scene::{Background, Scene};
 use crate::texture::Pattern;
@@ -53,42 +52,6 @@ fn check_image(image: &Image, c: &mut Collector<'_>) {
     if count == 0 || expected != Some(count) || image.channels > 4 {
         c.add(Problem::ImageSize);
     }
-}
-
-pub(super) fn materials<'a>(scene: &'a Scene, c: &mut Collector<'a>) {
-    for (i, material) in scene.materials.iter().enumerate() {
-        c.turn_to_named(ItemKind::Material, i, &material.name);
-        check_material(material, c);
-    }
-}
-
-fn check_material(material: &Material, c: &mut Collector<'_>) {
-    let Surface::Phong(phong) = &material.surface;
-    check_phong(phong, c);
-    c.number("opacity", material.opacity.factor, "from 0 to 1", |v| (0.0..=1.0).contains(&v));
-    material.opacity.texture.into_iter().for_each(|id| c.texture(id));
-    if let Some(Relief::Bump { texture, strength } | Relief::Normal { texture, strength }) = material.relief {
-        c.texture(texture);
-        c.finite("the strength of the relief", strength.is_finite());
-    }
-}
-
-fn check_phong(phong: &Phong, c: &mut Collector<'_>) {
-    let mut color = |what, input: &ColorInput| {
-        c.color(what, input.factor);
-        input.texture.into_iter().for_each(|id| c.texture(id));
-    };
-    color("ambient", &phong.ambient);
-    color("diffuse", &phong.diffuse);
-    color("specular", &phong.specular);
-    color("emission", &phong.emission);
-    color("mirror", &phong.mirror);
-    color("transparency", &phong.transparency);
-    let FloatInput { factor, texture } = phong.shininess;
-    c.not_negative("shininess", factor);
-    texture.into_iter().for_each(|id| c.texture(id));
-    c.positive("ior", phong.ior);
-    c.color("absorption", phong.absorption);
 }
 
 pub(super) fn objects<'a>(scene: &'a Scene, c: &mut Collector<'a>) {

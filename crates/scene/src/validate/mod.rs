@@ -7,6 +7,7 @@ mod collect;
 mod groups;
 mod issue;
 mod items;
+mod materials;
 
 pub use issue::{ItemKind, Problem, SceneIssue};
 
@@ -29,7 +30,7 @@ impl Scene {
         let mut collector = Collector::new(self);
         items::meshes(self, &mut collector);
         items::textures(self, &mut collector);
-        items::materials(self, &mut collector);
+        materials::materials(self, &mut collector);
         groups::groups(self, &mut collector);
         items::objects(self, &mut collector);
         items::lights(self, &mut collector);

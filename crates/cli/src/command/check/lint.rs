@@ -2,10 +2,10 @@
 
 use heliostat_io::Warning;
 use heliostat_io::error::Place;
-use heliostat_scene::material::{ColorInput, FloatInput, Material, Relief, Surface};
+use heliostat_scene::material::Material;
 use heliostat_scene::object::Geometry;
 use heliostat_scene::scene::Background;
-use heliostat_scene::{Rgb, Scene, TextureId};
+use heliostat_scene::{Rgb, Scene};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ pub(super) fn lint(path: &Path, scene: &Scene) -> Vec<Warning> {
     let shown = |index: usize| objects().any(|o| o.materials.iter().any(|m| m.index() == index));
     let materials = scene.materials.iter().enumerate().filter(|&(index, _)| !shown(index));
     materials.for_each(|(_, material)| unused("the material", &material.name));
-    let read = |index: usize| scene.materials.iter().any(|m| textures(m).any(|t| t.index() == index));
+    let read = |index: usize| scene.materials.iter().any(|m| m.textures().iter().any(|t| t.index() == index));
     let textures = scene.textures.iter().enumerate().filter(|&(index, _)| !read(index));
     textures.for_each(|(_, texture)| unused("the texture", &texture.name));
     let placed =
@@ -56,27 +56,8 @@ fn place(text: &Arc<str>, name: &str) -> Option<Place> {
     Some(Place::in_file(Arc::clone(text), start..start + quoted.len()))
 }
 
-/// Every texture that a material reads.
-fn textures(material: &Material) -> impl Iterator<Item = TextureId> {
-    let Surface::Phong(phong) = &material.surface;
-    let colors: [ColorInput; 6] =
-        [phong.ambient, phong.diffuse, phong.specular, phong.emission, phong.mirror, phong.transparency];
-    let numbers: [FloatInput; 2] = [phong.shininess, material.opacity];
-    let relief = material.relief.map(|relief| match relief {
-        Relief::Bump { texture, .. } | Relief::Normal { texture, .. } => texture,
-    });
-    colors
-        .into_iter()
-        .filter_map(|c| c.texture)
-        .chain(numbers.into_iter().filter_map(|n| n.texture))
-        .chain(relief)
-}
-
 fn is_dark(scene: &Scene) -> bool {
-    let glows = |material: &Material| {
-        let Surface::Phong(phong) = &material.surface;
-        !phong.emission.is_zero()
-    };
+    let glows = |material: &Material| !material.surface.emission().is_zero();
     scene.lights.is_empty()
         && scene.background == Background::Constant(Rgb::ZERO)
         && !scene.materials.iter().any(glows)

@@ -1,0 +1,131 @@
+//! Materials: textured descriptions of how a surface answers light.
+
+mod input;
+mod phong;
+mod standard;
+
+pub use input::{Channel, ColorInput, FloatInput};
+pub use phong::{FresnelMode, Phong};
+pub use standard::{Conductor, Standard, ThinFilm};
+
+use crate::ids::TextureId;
+use std::borrow::Cow;
+
+/// A relief that bends the shading normal without moving the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Relief {
+    /// A height map: displacement along the normal is `strength * luminance`, in units of `uv` length on the surface.
+    Bump {
+        /// The height.
+        texture: TextureId,
+        /// Height of white, in metres.
+        strength: f32,
+    },
+    /// A tangent-space normal map, linear, +y up.
+    Normal {
+        /// The map.
+        texture: TextureId,
+        /// Scale of its x and y.
+        strength: f32,
+    },
+}
+
+impl Relief {
+    /// The texture that it looks at.
+    pub fn texture_mut(&mut self) -> &mut TextureId {
+        match self {
+            Self::Bump { texture, .. } | Self::Normal { texture, .. } => texture,
+        }
+    }
+}
+
+/// The closed list of surface models.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Surface {
+    /// The report's model.
+    Phong(Phong),
+    /// The physically based model.
+    Standard(Box<Standard>),
+    /// A colour that is seen as it is, without light; it lights nothing either.
+    Unlit(ColorInput),
+}
+
+impl Surface {
+    /// Radiance that the surface gives off by itself and that lights the scene.
+    pub fn emission(&self) -> ColorInput {
+        match self {
+            Self::Phong(phong) => phong.emission,
+            Self::Standard(standard) => standard.emission,
+            Self::Unlit(_) => ColorInput::default(),
+        }
+    }
+
+    /// The same or the nearest of the report's surfaces: what integrators show that know only those.
+    pub fn phong(&self) -> Cow<'_, Phong> {
+        match self {
+            Self::Phong(phong) => Cow::Borrowed(phong),
+            Self::Standard(standard) => Cow::Owned(standard.phong()),
+            Self::Unlit(color) => Cow::Owned(Phong { emission: *color, ..Phong::DARK }),
+        }
+    }
+
+    /// Whether light may be refracted through it.
+    pub fn refracts(&self) -> bool {
+        match self {
+            Self::Phong(phong) => !phong.transparency.is_zero(),
+            Self::Standard(standard) => standard.refracts(),
+            Self::Unlit(_) => false,
+        }
+    }
+}
+
+/// A named material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// Name, unique in a scene; becomes the Cryptomatte name.
+    pub name: String,
+    /// How it answers light.
+    pub surface: Surface,
+    /// Coverage in `[0, 1]`: 0 lets rays pass straight through (MTL's `d`, cut-outs).
+    pub opacity: FloatInput,
+    /// From this coverage on the surface is whole, and below it there is none; `None` takes coverage as a share.
+    pub cutoff: Option<f32>,
+    /// Bends the shading normal.
+    pub relief: Option<Relief>,
+}
+
+impl Material {
+    /// A surface that covers all and is smooth.
+    pub fn of(name: impl Into<String>, surface: Surface) -> Self {
+        let opacity = FloatInput::constant(1.0);
+        Self { name: name.into(), surface, opacity, cutoff: None, relief: None }
+    }
+
+    /// One of the report's surfaces.
+    pub fn new(name: impl Into<String>, phong: Phong) -> Self {
+        Self::of(name, Surface::Phong(phong))
+    }
+
+    /// Whether rays may pass straight through it somewhere.
+    pub fn has_holes(&self) -> bool {
+        self.opacity.factor < 1.0 || self.opacity.texture.is_some()
+    }
+
+    /// Shows every texture that it looks at, some of them more than once, to be given other ids.
+    pub fn each_texture(&mut self, mut visit: impl FnMut(&mut TextureId)) {
+        match &mut self.surface {
+            Surface::Phong(phong) => phong.each_texture(&mut visit),
+            Surface::Standard(standard) => standard.each_texture(&mut visit),
+            Surface::Unlit(color) => color.texture.iter_mut().for_each(&mut visit),
+        }
+        self.opacity.texture.iter_mut().for_each(&mut visit);
+        self.relief.iter_mut().for_each(|relief| visit(relief.texture_mut()));
+    }
+
+    /// The textures that it looks at, some of them more than once.
+    pub fn textures(&self) -> Vec<TextureId> {
+        let mut textures = Vec::new();
+        self.clone().each_texture(|id| textures.push(*id));
+        textures
+    }
+}
