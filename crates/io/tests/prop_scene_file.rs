@@ -35,6 +35,12 @@ bump = { texture = "tiles", strength = 1e-3 }
 [material.phong]
 diffuse = { texture = "tiles", factor = 0.5 }
 transparency = 0.9
+[[material]]
+name = "lacquer"
+cutoff = 0.5
+[material.standard]
+roughness = { texture = "tiles", channel = "g" }
+conductor = { n = [0.1, 0.4, 1.4], k = 2 }
 [[object]]
 name = "ball"
 sphere = { radius = 1.5 }

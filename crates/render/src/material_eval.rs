@@ -80,7 +80,10 @@ impl MaterialEval<'_> {
 
     /// Coverage in `[0, 1]`.
     pub(crate) fn opacity(&self, material: &Material) -> f32 {
-        let coverage = |id: TextureId| texture_eval::coverage(&self.textures[id.index()], &self.at);
+        let coverage = |id: TextureId| match material.opacity.channel {
+            Channel::Luminance => texture_eval::coverage(&self.textures[id.index()], &self.at),
+            one => channel(self.texture(id), one),
+        };
         let coverage = material.opacity.texture.map_or(1.0, coverage);
         let opacity = (material.opacity.factor * coverage).clamp(0.0, 1.0);
         match material.cutoff {

@@ -5,6 +5,7 @@
 //! [[material]]
 //! name = "glass"
 //! opacity = 1                    # 0 lets rays straight through; with a texture, its alpha, else its luminance
+//! # cutoff = 0.5                 # the surface is whole from this coverage on, and not there below it
 //! bump = { texture = "noise", strength = 0.01 }              # metres of white; or
 //! # normal_map = { texture = "bricks_normal", strength = 1 } # tangent space, +y up
 //!
@@ -20,13 +21,18 @@
 //! absorption = 0                 # per metre inside: exp(-absorption * length) is left
 //! fresnel = false                # whether the angle shares transparency between refraction and reflection
 //! ```
+//!
+//! In place of `[material.phong]` a material may have `[material.standard]`, a [physically based surface](super::standard).
 
 use super::choice::{at_most_one, choice};
 use super::number::{Fraction, NonNegative, Number, Positive};
+use super::standard::StandardTable;
 use super::texturable::{Texturable, Textured};
 use super::value::Color;
 use crate::document::{Fault, Placed};
-use heliostat_scene::material::{ColorInput, FloatInput, FresnelMode, Material, Phong, Relief};
+use heliostat_scene::material::{
+    Channel, ColorInput, FloatInput, FresnelMode, Material, Phong, Relief, Surface,
+};
 use heliostat_scene::{Rgb, TextureId};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -39,12 +45,16 @@ pub struct MaterialTable {
     pub name: Placed<String>,
     /// Coverage from 0 to 1; with a texture, its alpha, or its luminance where it has no alpha. 1 if left out.
     pub opacity: Option<Texturable<Fraction>>,
+    /// From this coverage on the surface is whole, and below it there is none; if left out, coverage is a share.
+    pub cutoff: Option<Fraction>,
     /// A height map that bends the shading normal.
     pub bump: Option<Placed<BumpTable>>,
     /// A normal map that bends the shading normal.
     pub normal_map: Option<Placed<NormalMapTable>>,
     /// Phong's model with a mirror and a transparent part.
-    pub phong: Option<PhongTable>,
+    pub phong: Option<Placed<PhongTable>>,
+    /// A physically based surface.
+    pub standard: Option<Placed<StandardTable>>,
 }
 
 /// A height map.
@@ -114,15 +124,18 @@ impl MaterialTable {
     /// The material of the scene.
     pub(super) fn build(&self, textures: &mut impl FindTexture) -> Result<Material, Fault> {
         at_most_one(&[choice("bump", self.bump.as_ref()), choice("normal_map", self.normal_map.as_ref())])?;
-        let phong = match &self.phong {
-            Some(table) => table.build(textures)?,
-            None => Phong::default(),
+        at_most_one(&[choice("phong", self.phong.as_ref()), choice("standard", self.standard.as_ref())])?;
+        let surface = match (&self.phong, &self.standard) {
+            (Some(table), _) => Surface::Phong(table.build(textures)?),
+            (None, Some(table)) => Surface::Standard(Box::new(table.build(textures)?)),
+            (None, None) => Surface::Phong(Phong::default()),
         };
         let one = FloatInput::constant(1.0);
         Ok(Material {
             opacity: float_input(self.opacity.as_ref(), Fraction::f32, one, TextureUse::Coverage, textures)?,
             relief: self.relief(textures)?,
-            ..Material::new(self.name.to_string(), phong)
+            cutoff: self.cutoff.map(Fraction::f32),
+            ..Material::of(self.name.to_string(), surface)
         })
     }
 
@@ -166,7 +179,8 @@ impl PhongTable {
     }
 }
 
-fn color_input(
+/// A colour that a texture may vary; `absent` where it is left out.
+pub(super) fn color_input(
     value: Option<&Texturable<Color>>,
     absent: ColorInput,
     textures: &mut impl FindTexture,
@@ -174,14 +188,20 @@ fn color_input(
     match value {
         None => Ok(absent),
         Some(Texturable::Constant(color)) => Ok(ColorInput::constant(color.rgb())),
-        Some(Texturable::Texture(Textured { texture, factor })) => Ok(ColorInput {
+        Some(Texturable::Texture(Textured { channel: Some(channel), .. })) => {
+            Err(Fault::new("a colour takes all channels of its texture")
+                .with_help("remove `channel`")
+                .or_at(channel.span()))
+        }
+        Some(Texturable::Texture(Textured { texture, factor, channel: None })) => Ok(ColorInput {
             factor: factor.map_or(Rgb::ONE, |factor| factor.rgb()),
             texture: Some(textures.find(texture, TextureUse::Color)?),
         }),
     }
 }
 
-fn float_input<T: Copy>(
+/// A number that a texture may vary; `absent` where it is left out.
+pub(super) fn float_input<T: Copy>(
     value: Option<&Texturable<T>>,
     single: fn(T) -> f32,
     absent: FloatInput,
@@ -191,9 +211,10 @@ fn float_input<T: Copy>(
     match value {
         None => Ok(absent),
         Some(Texturable::Constant(value)) => Ok(FloatInput::constant(single(*value))),
-        Some(Texturable::Texture(Textured { texture, factor })) => Ok(FloatInput {
+        Some(Texturable::Texture(Textured { texture, factor, channel })) => Ok(FloatInput {
+            factor: factor.map_or(1.0, single),
             texture: Some(textures.find(texture, used_for)?),
-            ..FloatInput::constant(factor.map_or(1.0, single))
+            channel: channel.as_ref().map_or(Channel::Luminance, |channel| channel.channel()),
         }),
     }
 }

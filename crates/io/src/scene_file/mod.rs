@@ -32,7 +32,7 @@
 //! | `[camera]`, `[[camera]]` | [`camera`], [`focus`] | where from |
 //! | `[environment]` | [`environment`] | what is behind everything |
 //! | `[[texture]]` | [`texture`] | images and patterns |
-//! | `[[material]]` | [`material`] | how surfaces answer light |
+//! | `[[material]]` | [`material`], [`standard`] | how surfaces answer light |
 //! | `[[mesh]]`, `[[model]]` | [`mesh`] | OBJ files |
 //! | `[[object]]` | [`object`], [`shape`], [`placement`], [`copies`] | what is there to see |
 //! | `[[group]]` | [`group`] | objects that are placed together |
@@ -64,6 +64,7 @@ pub mod placement;
 pub mod render;
 pub mod shape;
 mod stage;
+pub mod standard;
 mod targets;
 pub mod texturable;
 pub mod texture;

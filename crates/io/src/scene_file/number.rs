@@ -77,6 +77,10 @@ number!(
     NonNegative, "a number of at least 0", |v| v >= 0.0, { "type": "number", "minimum": 0 }
 );
 number!(
+    /// A number of at least 1.
+    AtLeastOne, "a number of at least 1", |v| v >= 1.0, { "type": "number", "minimum": 1 }
+);
+number!(
     /// A number other than 0.
     NonZero, "a number other than 0", |v| v != 0.0, { "type": "number", "not": { "const": 0 } }
 );

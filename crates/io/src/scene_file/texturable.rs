@@ -6,9 +6,11 @@
 //! mirror = [0.7, 0.2, 0.1]                             # a colour
 //! specular = { texture = "wood" }                      # the texture as it is
 //! diffuse = { texture = "wood", factor = [1, 0.9, 0.8] }
+//! shininess = { texture = "packed", factor = 100, channel = "g" }  # green alone; luminance if left out
 //! ```
 
 use crate::document::Placed;
+use heliostat_scene::material::Channel;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
 use serde::de::{Deserialize, Deserializer, Error, IntoDeserializer, MapAccess, SeqAccess, Visitor};
@@ -35,6 +37,34 @@ pub struct Textured<T> {
     pub texture: Placed<String>,
     /// What the texture is multiplied by; 1 if left out.
     pub factor: Option<T>,
+    /// Which channel of the texture gives a number: `r`, `g`, `b` or `a`; its luminance if left out.
+    pub channel: Option<Placed<ChannelName>>,
+}
+
+/// A channel of a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, SerializeTable, DeserializeTable, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ChannelName {
+    /// Red.
+    R,
+    /// Green.
+    G,
+    /// Blue.
+    B,
+    /// Alpha.
+    A,
+}
+
+impl ChannelName {
+    /// The channel of the scene.
+    pub(super) fn channel(self) -> Channel {
+        match self {
+            Self::R => Channel::R,
+            Self::G => Channel::G,
+            Self::B => Channel::B,
+            Self::A => Channel::A,
+        }
+    }
 }
 
 impl<T: Serialize> Serialize for Texturable<T> {

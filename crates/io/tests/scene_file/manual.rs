@@ -4,6 +4,7 @@ use crate::support::shot;
 use heliostat_io::View;
 use heliostat_io::scene_file::SceneFile;
 use heliostat_scene::RenderSettings;
+use heliostat_scene::material::Surface;
 use std::path::Path;
 
 /// The TOML blocks in the head of a source file.
@@ -61,6 +62,10 @@ fn the_defaults_of_the_manual_are_the_defaults() {
     ));
     let silent = shot("[camera]\n[[material]]\nname = \"glass\"\n").unwrap();
     assert_eq!(written.unwrap().scene.materials[0].surface, silent.scene.materials[0].surface);
+    let [standard] = &blocks("scene_file/standard.rs")[..] else { panic!("one example") };
+    let written = shot(&format!("[camera]\n{standard}")).unwrap();
+    let standard = Surface::Standard(Box::default());
+    assert_eq!(written.scene.materials[0].surface, standard);
     let [camera] = &blocks("scene_file/camera.rs")[..] else { panic!("one example") };
     let written = shot(
         &camera.replace("[0, 1, 5]", "[0, 0, 0]").replace("look_at = [0, 1, 0]", "look_at = [0, 0, -1]"),
