@@ -174,7 +174,9 @@ pub fn least_area(products: f64) -> f64 {
 /// subtracted exactly but for one rounding of the difference. The distance to a plane,
 /// `(plane - origin) * (1 / dir)`, has 3 roundings, its growth by this bound 2 more, and the distance of a hit is
 /// rounded once. The watertight triangle test sees its corners, up to `distance + size` away, displaced by
-/// [`sheared_corner`], and reports a distance within as much of the place where it saw the hit.
+/// [`sheared_corner`]: by so much the true ray may pass beside a triangle that is hit. The hit lies on the true ray, at a
+/// distance worked out in `f64` where that meets the plane; only where it passes beside the triangle, the distance is held
+/// to within as much of the place where the hit was seen (see [`crate::triangle`]).
 ///
 /// # Source
 /// Higham, "Accuracy and Stability of Numerical Algorithms", 2nd edition, section 3.1, applied to the terms above.
