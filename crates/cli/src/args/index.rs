@@ -41,7 +41,7 @@ pub(crate) struct IndexArgs {
     #[arg(long, value_name = "RAYS", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     pub(crate) verify: Option<u32>,
 
-    /// Where `--verify` saves the rays that an index gets wrong, if there are any [default: SCENE.disagreements.jsonl]
+    /// Where `--verify` saves the rays that an index gets wrong, the first few thousand if there are more [default: SCENE.disagreements.jsonl]
     #[arg(long, value_name = "FILE", requires = "verify")]
     pub(crate) disagreements: Option<PathBuf>,
 

@@ -42,18 +42,25 @@ pub struct Agreement {
     pub hits: u64,
     /// Rays that brute force judged; about the others all indices said the same.
     pub judged: u64,
-    /// Every ray and index that differs: in whether there is a hit, in the triangle, in any bit of the
-    /// distance, or when its any-hit query contradicts.
+    /// How often an index differs: in whether there is a hit, in the triangle, in any bit of the distance, or when its
+    /// any-hit query contradicts.
+    pub differing: u64,
+    /// The first of these, [`Agreement::KEPT`] at most.
     pub disagreements: Vec<Disagreement>,
 }
 
 impl Agreement {
-    /// Adds what came of other rays.
-    pub fn merge(&mut self, other: Self) {
-        self.rays += other.rays;
-        self.hits += other.hits;
-        self.judged += other.judged;
-        self.disagreements.extend(other.disagreements);
+    /// How many disagreements are kept; more are counted, so that an index that is always wrong fills no memory.
+    pub const KEPT: usize = 4096;
+
+    /// Adds what came of the rays that follow.
+    pub fn merge(&mut self, next: Self) {
+        self.rays += next.rays;
+        self.hits += next.hits;
+        self.judged += next.judged;
+        self.differing += next.differing;
+        let free = Self::KEPT.saturating_sub(self.disagreements.len());
+        self.disagreements.extend(next.disagreements.into_iter().take(free));
     }
 }
 
@@ -139,7 +146,7 @@ impl<'m> Verifier<'m> {
         let expected = brute_force(self.mesh, &ray);
         let differs =
             |&(_, (got, got_any)): &(&str, Answer)| got != expected || got_any != expected.is_some();
-        let disagreements = answers
+        let disagreements: Vec<_> = answers
             .into_iter()
             .filter(differs)
             .map(|(index, (got, got_any))| {
@@ -147,7 +154,8 @@ impl<'m> Verifier<'m> {
                 Disagreement { number, ray, index, expected, got, got_any }
             })
             .collect();
-        Agreement { rays: 0, hits: u64::from(expected.is_some()), judged: 1, disagreements }
+        let differing = disagreements.len() as u64;
+        Agreement { rays: 0, hits: u64::from(expected.is_some()), judged: 1, differing, disagreements }
     }
 
     /// What each index says of a ray.
