@@ -1,5 +1,5 @@
-//! The meshes and textures that the scenes use, all made from formulas: the repository ships nothing foreign. And what is made from
-//! them by the renderer itself: the cells of a tree, and the picture in the docs of the index.
+//! The meshes and textures that the scenes use, all made from formulas: the repository ships nothing foreign. And what the
+//! binary makes from them: the cells of a tree, and the picture in the docs of the index.
 //!
 //! Small files go to `assets/` and are committed; large ones go to `assets/large/`, which is not.
 

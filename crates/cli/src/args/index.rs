@@ -5,7 +5,8 @@ use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
 const AFTER_HELP: &str = "\
-Every mesh has a tree of its own, over its triangles; the object tree is over the boxes of the objects.
+Every mesh has a tree of its own, over its triangles, every group one over the boxes of its objects and one over those of its
+copies, where there are several; the object tree is over the boxes of the objects.
 
 Examples:
   heliostat index model.obj                                  statistics of all trees

@@ -1,6 +1,6 @@
 //! The verifier against answers that are wrong on purpose.
 
-use super::{Agreement, Disagreement, Verifier};
+use super::{Agreement, Disagreement, KINDS, Verifier};
 use crate::bsp::BuildParams;
 use crate::mesh_tree::brute_force;
 use glam::Vec3;
@@ -45,6 +45,18 @@ fn a_replay_is_judged_whatever_the_sample() {
     let again = verifier.replay(1, ray);
     assert_eq!((again.rays, again.judged, again.disagreements.len()), (1, 1, 0));
     assert_eq!(again.hits, verifier.run(1..2, 0).hits);
+}
+
+#[test]
+fn a_sample_holds_rays_of_every_kind() {
+    let mesh = triangle();
+    let settings = [("best", BuildParams::BEST), ("fast", BuildParams::FAST)];
+    let verifier = Verifier::new(&mesh, &settings).unwrap().judging_every(10);
+    // One ray in ten is judged, although ten is a multiple of the kinds.
+    for kind in 0..KINDS {
+        let of_kind = (0..100).map(|i| verifier.run(KINDS * i + kind..KINDS * i + kind + 1, 0).judged);
+        assert_eq!(of_kind.sum::<u64>(), 10, "{kind}");
+    }
 }
 
 #[test]

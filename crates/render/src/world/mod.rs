@@ -1,8 +1,9 @@
 //! A scene made ready for rays: indices over objects and meshes, and the table of its lights.
 //!
 //! Levels: each mesh has one tree in its local space, however many objects show it; each group has its indices in its own
-//! space, however often it is placed, at whatever depth; the world has one index over the boxes of its objects. The visible surfaces of area lights stand beside the objects: rays see them, but they throw
-//! no shadow, so that a bulb does not hide the light inside it.
+//! space, however often it is placed, at whatever depth; the world has one index over the boxes of its objects. The visible
+//! surfaces of area lights stand beside the objects: rays see them, but they throw no shadow, so that a bulb does not hide the
+//! light inside it.
 
 mod blocker;
 mod body;
@@ -225,21 +226,10 @@ impl<'s> World<'s> {
         let solid = &self.solids[look.solid as usize];
         let mut room = None;
         let place = solid.place.at(look.time, &mut room)?;
-        let body = match &solid.content {
-            Content::Body(body) => body,
-            Content::Group(group) => return group.closest(look, search, place, 0),
-        };
-        let ray = look.passing.seen_by(Thing::whole(look.solid), search);
-        let (t, meeting) = match look.cost {
-            None => body.closest(place, &ray)?,
-            Some(cost) => {
-                let mut sum = cost.get();
-                let found = body.closest_counted(place, &ray, &mut sum);
-                cost.set(sum);
-                found?
-            }
-        };
-        Some((t, Met { part: 0, meeting }))
+        match &solid.content {
+            Content::Body(body) => look.closest(body, 0, search, place),
+            Content::Group(group) => group.closest(look, search, place, 0),
+        }
     }
 
     /// [`World::seen`] for a ray that may run through glass: where the surface of the glass and another one lie in the same

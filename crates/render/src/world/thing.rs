@@ -33,11 +33,3 @@ pub(super) struct Standing<'w, 's> {
     /// Whether the material of the object, or a layer, looks at surface parameters.
     pub(super) parameters: Parameters,
 }
-
-impl Thing {
-    /// An object that is no group, or the surface of a light.
-    #[inline]
-    pub(super) fn whole(solid: u32) -> Self {
-        Self { solid, part: 0 }
-    }
-}
