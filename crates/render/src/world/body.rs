@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 use heliostat_geometry::shape::Root;
+use heliostat_geometry::triangle::TriangleHit;
 use heliostat_geometry::{Hit, Ray, Shape, Transform, TriMesh};
 use heliostat_index::{MeshHit, MeshTree, TraversalCost};
 use std::sync::Arc;
@@ -16,12 +17,39 @@ pub(crate) enum Body<'s> {
 }
 
 /// Where a ray meets a body, before the surface there is worked out.
+///
+/// One form for shapes and meshes: a search hands on plain numbers in registers, where a choice of two forms would go through
+/// memory each time.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Meeting {
-    /// On a shape.
-    Shape(Root),
-    /// On a mesh.
-    Mesh(MeshHit),
+pub(crate) struct Meeting {
+    /// Ray parameter; on meshes an `f32`.
+    t: f64,
+    /// The part of the shape, or the triangle.
+    face: u32,
+    /// Weights of the corners of the triangle.
+    weights: [f32; 3],
+}
+
+impl Meeting {
+    #[inline(always)]
+    fn on_shape(root: Root) -> Self {
+        Self { t: root.t, face: root.part.into(), weights: [0.0; 3] }
+    }
+
+    #[inline(always)]
+    fn on_mesh(MeshHit { triangle, hit }: MeshHit) -> Self {
+        Self { t: hit.t.into(), face: triangle, weights: hit.barycentric }
+    }
+
+    #[inline(always)]
+    fn root(&self) -> Root {
+        Root { t: self.t, part: self.face as u8 }
+    }
+
+    #[inline(always)]
+    fn triangle_hit(&self) -> TriangleHit {
+        TriangleHit { t: self.t as f32, barycentric: self.weights }
+    }
 }
 
 /// Whether anybody looks at the surface parameters of a hit.
@@ -54,11 +82,11 @@ impl Body<'_> {
         match self {
             Self::Shape(shape) => {
                 let root = shape.hit(&place.local_ray(ray))?;
-                Some((root.t as f32, Meeting::Shape(root)))
+                Some((root.t as f32, Meeting::on_shape(root)))
             }
             Self::Mesh { tree, .. } => {
                 let found = tree.closest_hit(&place.ray_to_local(ray))?;
-                Some((found.hit.t, Meeting::Mesh(found)))
+                Some((found.hit.t, Meeting::on_mesh(found)))
             }
         }
     }
@@ -72,7 +100,7 @@ impl Body<'_> {
     ) -> Option<(f32, Meeting)> {
         let Self::Mesh { tree, .. } = self else { return self.closest(place, ray) };
         let found = tree.closest_hit_counted(&place.ray_to_local(ray), cost)?;
-        Some((found.hit.t, Meeting::Mesh(found)))
+        Some((found.hit.t, Meeting::on_mesh(found)))
     }
 
     /// Whether anything lies in the range of the ray.
@@ -90,13 +118,12 @@ impl Body<'_> {
             Self::Shape(_) => {
                 let mut rest = *ray;
                 while let Some((t, meeting)) = self.closest(place, &rest) {
-                    self.surface(place, &rest, meeting, Parameters::Used).into_iter().for_each(&mut visit);
+                    visit(self.surface(place, &rest, &meeting, Parameters::Used));
                     rest.range.min = t.next_up();
                 }
             }
             Self::Mesh { tree, .. } => tree.for_each_hit(&place.ray_to_local(ray), |found| {
-                let surface = self.surface(place, ray, Meeting::Mesh(found), Parameters::Used);
-                surface.into_iter().for_each(&mut visit);
+                visit(self.surface(place, ray, &Meeting::on_mesh(found), Parameters::Used));
             }),
         }
     }
@@ -117,41 +144,40 @@ impl Body<'_> {
     }
 
     /// The surface at a meeting that came from the same ray and place.
-    #[inline]
+    #[inline(always)]
     pub(super) fn surface(
         &self,
         place: &Transform,
         ray: &Ray,
-        meeting: Meeting,
+        meeting: &Meeting,
         parameters: Parameters,
-    ) -> Option<SurfaceAt> {
-        match (self, meeting) {
-            (Self::Shape(shape), Meeting::Shape(root)) => {
-                let (ray, shape) = (place.local_ray(ray), shape.geometry());
+    ) -> SurfaceAt {
+        match self {
+            Self::Shape(shape) => {
+                let (ray, shape, root) = (place.local_ray(ray), shape.geometry(), meeting.root());
                 let local = match parameters {
                     Parameters::Unused => shape.bare_surface(&ray, root),
                     Parameters::Used => shape.surface(&ray, root),
                 };
-                Some(SurfaceAt {
+                SurfaceAt {
                     hit: place.hit_to_world(&local),
                     local: local.p.as_vec3(),
                     slot: 0,
                     color: None,
                     triangle: None,
-                })
+                }
             }
-            (Self::Mesh { mesh, .. }, Meeting::Mesh(MeshHit { triangle, hit })) => {
+            Self::Mesh { mesh, .. } => {
+                let (triangle, hit) = (meeting.face, meeting.triangle_hit());
                 let local = mesh.surface(triangle, &hit);
-                Some(SurfaceAt {
+                SurfaceAt {
                     hit: place.hit_to_world(&local),
                     local: local.p.as_vec3(),
                     slot: mesh.slot(triangle),
                     color: mesh.color(triangle, &hit),
                     triangle: Some((triangle, hit.barycentric)),
-                })
+                }
             }
-            // A meeting of the other kind does not come from this body.
-            _ => None,
         }
     }
 }

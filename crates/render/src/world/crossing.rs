@@ -55,10 +55,11 @@ impl PassingRay {
         Self { ray, crossing: None }
     }
 
-    /// A ray in direction `dir` that goes on behind `hit`, which `self` found on `thing`.
-    pub(crate) fn behind(&self, thing: Thing, hit: &SurfaceHit, dir: Vec3) -> Self {
+    /// A ray in direction `dir` that goes on behind `hit`, which `self` found.
+    pub(crate) fn behind(&self, hit: &SurfaceHit, dir: Vec3) -> Self {
         let at = hit.hit.at;
         let behind = at.spawn(dir);
+        let Some(thing) = hit.thing() else { return Self::free(behind) };
         // Surfaces crossed before belong to this place too, when this one lies within their error.
         let before = self.crossing.filter(|crossing| crossing.is_at(&at));
         let (mut things, mut count) =
