@@ -107,12 +107,11 @@ impl Whitted {
         counters: &mut RayCounters,
     ) {
         // Find what the ray meets first, and colour what comes through glass.
-        let Some(surface) = world.seen_inside(&branch.passing, branch.inside, time, branch.from_camera)
-        else {
+        let seen = world.seen_inside(&branch.passing, branch.inside, time, branch.from_camera);
+        let Some(surface) = &seen else {
             self.leave(world, branch, found);
             return;
         };
-        let surface = &surface;
         let dir = branch.passing.ray.dir;
         let way = surface.hit.t * dir.length();
         if let Some(inside) = branch.inside {

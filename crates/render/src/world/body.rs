@@ -18,9 +18,9 @@ pub(crate) enum Body<'s> {
 
 /// Where a ray meets a body, before the surface there is worked out.
 ///
-/// One form for shapes and meshes: a search hands on plain numbers in registers, where a choice of two forms would go through
-/// memory each time.
-#[derive(Clone, Copy, Debug)]
+/// One form for shapes and meshes, written where it stays: to copy numbers that have just been written costs a search more
+/// than to find them.
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Meeting {
     /// Ray parameter; on meshes an `f32`.
     t: f64,
@@ -76,19 +76,14 @@ pub(crate) struct SurfaceAt {
 }
 
 impl Body<'_> {
-    /// The nearest meeting in the range of the ray; `place` is the map to world space.
+    /// The nearest meeting in the range of the ray: where on the ray, and the rest in `met`; `place` is the map to world space.
     #[inline]
-    pub(super) fn closest(&self, place: &Transform, ray: &Ray) -> Option<(f32, Meeting)> {
-        match self {
-            Self::Shape(shape) => {
-                let root = shape.hit(&place.local_ray(ray))?;
-                Some((root.t as f32, Meeting::on_shape(root)))
-            }
-            Self::Mesh { tree, .. } => {
-                let found = tree.closest_hit(&place.ray_to_local(ray))?;
-                Some((found.hit.t, Meeting::on_mesh(found)))
-            }
-        }
+    pub(super) fn closest(&self, place: &Transform, ray: &Ray, met: &mut Meeting) -> Option<f32> {
+        *met = match self {
+            Self::Shape(shape) => Meeting::on_shape(shape.hit(&place.local_ray(ray))?),
+            Self::Mesh { tree, .. } => Meeting::on_mesh(tree.closest_hit(&place.ray_to_local(ray))?),
+        };
+        Some(met.t as f32)
     }
 
     /// [`Body::closest`] that adds the work of the mesh tree to `cost`.
@@ -96,11 +91,12 @@ impl Body<'_> {
         &self,
         place: &Transform,
         ray: &Ray,
+        met: &mut Meeting,
         cost: &mut TraversalCost,
-    ) -> Option<(f32, Meeting)> {
-        let Self::Mesh { tree, .. } = self else { return self.closest(place, ray) };
-        let found = tree.closest_hit_counted(&place.ray_to_local(ray), cost)?;
-        Some((found.hit.t, Meeting::on_mesh(found)))
+    ) -> Option<f32> {
+        let Self::Mesh { tree, .. } = self else { return self.closest(place, ray, met) };
+        *met = Meeting::on_mesh(tree.closest_hit_counted(&place.ray_to_local(ray), cost)?);
+        Some(met.t as f32)
     }
 
     /// Whether anything lies in the range of the ray.
@@ -116,9 +112,9 @@ impl Body<'_> {
     pub(super) fn each_surface(&self, place: &Transform, ray: &Ray, mut visit: impl FnMut(SurfaceAt)) {
         match self {
             Self::Shape(_) => {
-                let mut rest = *ray;
-                while let Some((t, meeting)) = self.closest(place, &rest) {
-                    visit(self.surface(place, &rest, &meeting, Parameters::Used));
+                let (mut rest, mut met) = (*ray, Meeting::default());
+                while let Some(t) = self.closest(place, &rest, &mut met) {
+                    visit(self.surface(place, &rest, &met, Parameters::Used));
                     rest.range.min = t.next_up();
                 }
             }

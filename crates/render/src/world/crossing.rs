@@ -74,14 +74,15 @@ impl PassingRay {
         Self { ray: Ray::new(origin, dir), crossing: Some(crossing) }
     }
 
-    /// The ray with which a thing is asked: `range` of the search so far, the origin behind things that are crossed.
+    /// The ray with which a thing is asked: `range` of the search so far, the origin behind things that are crossed. In `room`
+    /// only if it is another one.
     #[inline]
-    pub(super) fn seen_by(&self, thing: Thing, search: &Ray) -> Ray {
+    pub(super) fn seen_by<'a>(&self, thing: Thing, search: &'a Ray, room: &'a mut Option<Ray>) -> &'a Ray {
         match &self.crossing {
             Some(crossing) if crossing.things[..crossing.count as usize].contains(&thing) => {
-                Ray { origin: crossing.behind, ..*search }
+                room.insert(Ray { origin: crossing.behind, ..*search })
             }
-            _ => *search,
+            _ => search,
         }
     }
 }

@@ -173,16 +173,16 @@ impl<'s> World<'s> {
     pub fn camera_hit_counted(&self, ray: &Ray, time: f32, cost: &mut TraversalCost) -> Option<SurfaceHit> {
         let below = Cell::new(TraversalCost::default());
         let passing = PassingRay::free(*ray);
-        let found = self.level.closest_counted(ray, cost, |i, ray| {
+        let found = self.level.closest_counted(ray, cost, |i, ray, met| {
             let look = Look { passing: &passing, solid: i, time, camera: true, cost: Some(&below) };
-            self.is_seen(i, true).then(|| self.meet_counted(&look, ray, &below))?
+            self.is_seen(i, true).then(|| self.meet_counted(&look, ray, met, &below))?
         });
         let below = below.get();
         cost.nodes += below.nodes;
         cost.leaves += below.leaves;
         cost.tests += below.tests;
         let found = found?;
-        self.surface(found.primitive, ray, time, found.data, Parameters::Used)
+        self.surface(found.primitive, ray, time, &found.data, Parameters::Used)
     }
 
     /// The nearest thing on the way of a ray; invisible objects are left out for the camera.
@@ -198,43 +198,54 @@ impl<'s> World<'s> {
         camera: bool,
         parameters: impl Fn(u32) -> Parameters,
     ) -> Option<SurfaceHit> {
-        let found = self.level.closest(&passing.ray, |i, search| {
+        let found = self.level.closest(&passing.ray, |i, search, met| {
             if !self.is_seen(i, camera) {
                 return None;
             }
-            self.meet(&Look { passing, solid: i, time, camera, cost: None }, search)
+            self.meet(&Look { passing, solid: i, time, camera, cost: None }, search, met)
         })?;
         let thing = Thing { solid: found.primitive, part: found.data.part };
-        let ray = passing.seen_by(thing, &passing.ray);
-        self.surface(thing.solid, &ray, time, found.data, parameters(thing.solid))
+        let mut room = None;
+        let ray = passing.seen_by(thing, &passing.ray, &mut room);
+        self.surface(thing.solid, ray, time, &found.data, parameters(thing.solid))
     }
 
-    /// The nearest meeting of a ray with one solid.
+    /// The nearest meeting of a ray with one solid: where on the ray, and the rest in `met`.
     #[inline(always)]
-    fn meet(&self, look: &Look<'_>, search: &Ray) -> Option<(f32, Met)> {
+    fn meet(&self, look: &Look<'_>, search: &Ray, met: &mut Met) -> Option<f32> {
         let solid = &self.solids[look.solid as usize];
-        let Content::Body(body) = &solid.content else { return self.meet_parts(look, search) };
-        let ray = look.passing.seen_by(Thing::whole(look.solid), search);
-        let (t, meeting) = body.closest(solid.place.at(look.time, &mut None)?, &ray)?;
-        Some((t, Met { part: 0, meeting }))
+        let Content::Body(body) = &solid.content else { return self.meet_parts(look, search, met) };
+        let (mut room, mut another) = (None, None);
+        let ray = look.passing.seen_by(Thing::whole(look.solid), search, &mut another);
+        let t = body.closest(solid.place.at(look.time, &mut room)?, ray, &mut met.meeting);
+        t.inspect(|_| met.part = 0)
     }
 
-    /// [`World::meet`] that adds the work of the mesh tree to `cost`.
-    fn meet_counted(&self, look: &Look<'_>, search: &Ray, cost: &Cell<TraversalCost>) -> Option<(f32, Met)> {
+    /// [`World::meet`] for a camera ray, that adds the work of the mesh tree to `cost`.
+    fn meet_counted(
+        &self,
+        look: &Look<'_>,
+        ray: &Ray,
+        met: &mut Met,
+        cost: &Cell<TraversalCost>,
+    ) -> Option<f32> {
         let solid = &self.solids[look.solid as usize];
-        let Content::Body(body) = &solid.content else { return self.meet_parts(look, search) };
-        let mut sum = cost.get();
-        let found = body.closest_counted(solid.place.at(look.time, &mut None)?, search, &mut sum);
+        let Content::Body(body) = &solid.content else { return self.meet_parts(look, ray, met) };
+        let (mut room, mut sum) = (None, cost.get());
+        let t = body.closest_counted(solid.place.at(look.time, &mut room)?, ray, &mut met.meeting, &mut sum);
         cost.set(sum);
-        found.map(|(t, meeting)| (t, Met { part: 0, meeting }))
+        t.inspect(|_| met.part = 0)
     }
 
     /// [`World::meet`] for a group; apart, so that shapes and meshes need not make room for it.
     #[inline(never)]
-    fn meet_parts(&self, look: &Look<'_>, search: &Ray) -> Option<(f32, Met)> {
+    fn meet_parts(&self, look: &Look<'_>, search: &Ray, met: &mut Met) -> Option<f32> {
         let solid = &self.solids[look.solid as usize];
         let Content::Group(group) = &solid.content else { return None };
-        group.closest(look, search, solid.place.at(look.time, &mut None)?, 0)
+        let mut room = None;
+        let (t, part) = group.closest(look, search, solid.place.at(look.time, &mut room)?, 0)?;
+        *met = part;
+        Some(t)
     }
 
     /// [`World::seen`] for a ray that may run through glass: where the surface of the glass and another one lie in the same
@@ -248,26 +259,25 @@ impl<'s> World<'s> {
         time: f32,
         camera: bool,
     ) -> Option<SurfaceHit> {
-        let seen = self.nearest(passing, time, camera, |i| self.parameters[i as usize])?;
-        if let Some(inside) = inside.filter(|inside| seen.thing() != Some(inside.thing)) {
-            let exit = self.seen_on(inside.thing, passing, time).filter(|exit| {
-                let ng = exit.hit.at.ng;
-                ng.dot(passing.ray.dir) > 0.0 && coincide(&exit.hit.at, &seen.hit.at)
-            });
-            if exit.is_some() {
-                return exit;
-            }
+        let seen = self.nearest(passing, time, camera, |i| self.parameters[i as usize]);
+        let (Some(inside), Some(surface)) = (inside, &seen) else { return seen };
+        if surface.thing() == Some(inside.thing) {
+            return seen;
         }
-        Some(seen)
+        let exit = self.seen_on(inside.thing, passing, time).filter(|exit| {
+            exit.hit.at.ng.dot(passing.ray.dir) > 0.0 && coincide(&exit.hit.at, &surface.hit.at)
+        });
+        exit.or(seen)
     }
 
     /// The nearest surface of one thing on the way of a ray.
     fn seen_on(&self, thing: Thing, passing: &PassingRay, time: f32) -> Option<SurfaceHit> {
-        let ray = passing.seen_by(thing, &passing.ray);
-        let (_, meeting) =
-            self.with_thing(thing, time, |standing| standing.body.closest(standing.place, &ray))?;
-        let met = Met { part: thing.part, meeting };
-        self.surface(thing.solid, &ray, time, met, Parameters::Used)
+        let (mut room, mut met) = (None, Met { part: thing.part, ..Met::default() });
+        let ray = passing.seen_by(thing, &passing.ray, &mut room);
+        self.with_thing(thing, time, |standing| {
+            standing.body.closest(standing.place, ray, &mut met.meeting)
+        })?;
+        self.surface(thing.solid, ray, time, &met, Parameters::Used)
     }
 
     /// The lights that shine from somewhere.
@@ -292,7 +302,7 @@ impl<'s> World<'s> {
         solid: u32,
         ray: &Ray,
         time: f32,
-        met: Met,
+        met: &Met,
         parameters: Parameters,
     ) -> Option<SurfaceHit> {
         let (index, solid) = (solid, &self.solids[solid as usize]);
@@ -311,7 +321,7 @@ impl<'s> World<'s> {
         solid: u32,
         ray: &Ray,
         time: f32,
-        met: Met,
+        met: &Met,
         parameters: Parameters,
     ) -> Option<SurfaceHit> {
         self.with_thing(Thing { solid, part: met.part }, time, |part| {

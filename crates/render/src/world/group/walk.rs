@@ -1,5 +1,6 @@
 //! The way of a ray down through the levels of a group.
 
+use super::super::body::Meeting;
 use super::super::crossing::PassingRay;
 use super::super::solid::Content;
 use super::super::thing::{Met, Standing, Thing};
@@ -104,12 +105,13 @@ impl<'s> Member<'s> {
                 Content::Body(body) => body,
                 Content::Group(group) => return group.closest(look, search, place, part),
             };
-            let ray = look.passing.seen_by(Thing { solid: look.solid, part }, search);
-            let (t, meeting) = match look.cost {
-                None => body.closest(place, &ray)?,
+            let (mut room, mut meeting) = (None, Meeting::default());
+            let ray = look.passing.seen_by(Thing { solid: look.solid, part }, search, &mut room);
+            let t = match look.cost {
+                None => body.closest(place, ray, &mut meeting)?,
                 Some(cost) => {
                     let mut below = TraversalCost::default();
-                    let found = body.closest_counted(place, &ray, &mut below);
+                    let found = body.closest_counted(place, ray, &mut meeting, &mut below);
                     add(cost, below);
                     found?
                 }
