@@ -141,8 +141,8 @@ pub fn offset_origin(p: Vec3, p_err: Vec3, n: Vec3, dir: Vec3) -> Vec3 {
 pub fn offset_along(p: Vec3, p_err: Vec3, n: Vec3) -> Vec3 {
     let offset = n.abs().dot(p_err) * n;
     let moved = p + offset;
-    // A step of at least one ulp, without a look at the bits.
-    let step = moved.abs() * f32::EPSILON + Vec3::splat(f32::MIN_POSITIVE);
+    // A step of at least one ulp, without a look at the bits, and never subnormal: near 0 that takes a processor long.
+    let step = moved.abs().max(Vec3::splat(f32::MIN_POSITIVE / f32::EPSILON)) * f32::EPSILON;
     let away = |offset: f32, step: f32| if offset == 0.0 { 0.0 } else { step.copysign(offset) };
     moved + Vec3::new(away(offset.x, step.x), away(offset.y, step.y), away(offset.z, step.z))
 }

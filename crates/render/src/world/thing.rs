@@ -15,7 +15,7 @@ pub(crate) struct Thing {
 }
 
 /// Where a ray met a thing of some solid, before the surface there is worked out.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Met {
     /// See [`Thing::part`].
     pub(super) part: u64,

@@ -25,26 +25,29 @@ pub(in super::super) struct Look<'q> {
 }
 
 impl Look<'_> {
-    /// The nearest meeting with the body of one part in the range of `search`.
-    #[inline]
+    /// The nearest meeting with the body of one part in the range of `search`: where on the ray, and the rest in `met`, which
+    /// holds what it likes where there is none.
+    #[inline(always)]
     pub(in super::super) fn closest(
         &self,
         body: &Body<'_>,
         part: u64,
         search: &Ray,
         place: &Transform,
-    ) -> Option<(f32, Met)> {
-        let ray = self.passing.seen_by(Thing { solid: self.solid, part }, search);
-        let (t, meeting) = match self.cost {
-            None => body.closest(place, &ray)?,
+        met: &mut Met,
+    ) -> Option<f32> {
+        let mut room = None;
+        let ray = self.passing.seen_by(Thing { solid: self.solid, part }, search, &mut room);
+        let t = match self.cost {
+            None => body.closest(place, ray, &mut met.meeting),
             Some(cost) => {
                 let mut below = TraversalCost::default();
-                let found = body.closest_counted(place, &ray, &mut below);
+                let found = body.closest_counted(place, ray, &mut met.meeting, &mut below);
                 add(cost, below);
-                found?
+                found
             }
         };
-        Some((t, Met { part, meeting }))
+        t.inspect(|_| met.part = part)
     }
 }
 
@@ -129,7 +132,8 @@ impl<'s> Member<'s> {
                 Content::Body(body) => body,
                 Content::Group(group) => return group.closest(look, search, place, part),
             };
-            look.closest(body, part, search, place)
+            let mut met = Met::default();
+            look.closest(body, part, search, place, &mut met).map(|t| (t, met))
         })
     }
 
