@@ -25,7 +25,7 @@ struct Args {
 enum Chore {
     /// Everything a change must pass: fmt, clippy, rustdoc, tidy, tests.
     Ci {
-        /// Also the slow checks: 20,000 cases per law, full ray counts, release tests.
+        /// Also the slow checks: 20,000 cases per law, full ray counts, release tests, assets made anew.
         #[arg(long)]
         deep: bool,
     },

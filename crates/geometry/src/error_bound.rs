@@ -141,8 +141,8 @@ pub fn offset_origin(p: Vec3, p_err: Vec3, n: Vec3, dir: Vec3) -> Vec3 {
 pub fn offset_along(p: Vec3, p_err: Vec3, n: Vec3) -> Vec3 {
     let offset = n.abs().dot(p_err) * n;
     let moved = p + offset;
-    // A step of at least one ulp, without a look at the bits.
-    let step = moved.abs() * f32::EPSILON + Vec3::splat(f32::MIN_POSITIVE);
+    // A step of at least one ulp, without a look at the bits, and never subnormal: near 0 that takes a processor long.
+    let step = moved.abs().max(Vec3::splat(f32::MIN_POSITIVE / f32::EPSILON)) * f32::EPSILON;
     let away = |offset: f32, step: f32| if offset == 0.0 { 0.0 } else { step.copysign(offset) };
     moved + Vec3::new(away(offset.x, step.x), away(offset.y, step.y), away(offset.z, step.z))
 }
@@ -174,7 +174,9 @@ pub fn least_area(products: f64) -> f64 {
 /// subtracted exactly but for one rounding of the difference. The distance to a plane,
 /// `(plane - origin) * (1 / dir)`, has 3 roundings, its growth by this bound 2 more, and the distance of a hit is
 /// rounded once. The watertight triangle test sees its corners, up to `distance + size` away, displaced by
-/// [`sheared_corner`], and reports a distance within as much of the place where it saw the hit.
+/// [`sheared_corner`]: by so much the true ray may pass beside a triangle that is hit. The hit lies on the true ray, at a
+/// distance worked out in `f64` where that meets the plane; only where it passes beside the triangle, the distance is held
+/// to within as much of the place where the hit was seen (see [`crate::triangle`]).
 ///
 /// # Source
 /// Higham, "Accuracy and Stability of Numerical Algorithms", 2nd edition, section 3.1, applied to the terms above.

@@ -43,7 +43,7 @@ impl TriangleRay {
         Self::from_turned(along, turned(along, ray.origin.into()), turned(along, ray.dir.into()))
     }
 
-    /// A ray whose coordinates were brought into cyclic order, its [main axis](Self::main_axis) last.
+    /// A ray whose coordinates were [`turned`], its [main axis](Self::main_axis) last.
     #[inline(always)]
     pub fn from_turned(along: usize, origin: Vec3A, dir: Vec3A) -> Self {
         Self { along, origin, dir, slope: Vec3A::new(dir.x, dir.y, 1.0) / dir.z }
@@ -97,9 +97,9 @@ struct Projected {
     reach: f32,
 }
 
-/// The coordinates in cyclic order, axis `along` last.
+/// The coordinates in cyclic order, axis `along` (0, 1, 2) last: what [`TriangleRay::from_turned`] takes.
 #[inline(always)]
-fn turned(along: usize, v: Vec3A) -> Vec3A {
+pub fn turned(along: usize, v: Vec3A) -> Vec3A {
     match along {
         0 => v.yzx(),
         1 => v.zxy(),
@@ -122,12 +122,7 @@ pub struct TriangleHit {
 /// finite and rays without direction give `None`.
 #[inline]
 pub fn intersect(ray: &TriangleRay, range: Interval, corners: [Vec3; 3]) -> Option<TriangleHit> {
-    intersect_turned(ray, range, corners.map(|corner| turned(ray.along, corner.into()).into()))
-}
-
-/// [`intersect`] with the coordinates of the corners in the order of [`TriangleRay::origin`].
-#[inline(always)]
-pub fn intersect_turned(ray: &TriangleRay, range: Interval, corners: [Vec3; 3]) -> Option<TriangleHit> {
+    let corners = corners.map(|corner| turned(ray.along, corner.into()).into());
     // Look down the ray: the origin becomes (0, 0), and the ray the point there.
     let seen = ray.project(corners);
     let Projected { x, y, .. } = seen;
@@ -159,10 +154,10 @@ fn exact_areas(&Projected { x, y, .. }: &Projected) -> [f64; 3] {
     (x.zxyw() * y.yzxw() - y.zxyw() * x.yzxw()).xyz().to_array()
 }
 
-/// What [`intersect_turned`] says of a triangle with an area that is known to be hit, for less; `None` where rounding might put
+/// What [`intersect`] says of a triangle with an area that is known to be hit, for less; `None` where rounding might put
 /// the hit outside, and only [`intersect`] can tell.
 ///
-/// Anything may come of other triangles.
+/// The coordinates of the corners are [`turned`] as those of the ray. Anything may come of other triangles.
 #[inline(always)]
 pub fn intersect_inside(ray: &TriangleRay, corners: [Vec3; 3]) -> Option<TriangleHit> {
     let [a, b, c] = corners;

@@ -104,6 +104,15 @@ fn settings_out_of_range_are_refused() {
 }
 
 #[test]
+fn a_tree_may_duplicate_without_end() {
+    let params = BuildParams { max_duplication: f32::MAX, ..BuildParams::BALANCED };
+    let boxes: Vec<Aabb> = (0..100).map(|i| cube(Vec3::X * i as f32, 1.5)).collect();
+    let tree = BspTree::build(&boxes, &params).unwrap();
+    tree.validate(&boxes).unwrap();
+    assert!(tree.stats().leaves > 1);
+}
+
+#[test]
 fn presets_have_names() {
     assert_eq!("midpoint".parse(), Ok(BuildParams::MIDPOINT));
     assert_eq!("balanced".parse(), Ok(BuildParams::BALANCED));

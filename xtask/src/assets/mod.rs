@@ -1,5 +1,5 @@
-//! The meshes and textures that the scenes use, all made from formulas: the repository ships nothing foreign. And the picture in
-//! the docs of the index.
+//! The meshes and textures that the scenes use, all made from formulas: the repository ships nothing foreign. And what the
+//! binary makes from them: the cells of a tree, and the picture in the docs of the index.
 //!
 //! Small files go to `assets/` and are committed; large ones go to `assets/large/`, which is not.
 
@@ -12,10 +12,45 @@ mod sphere_points;
 mod textures;
 
 use crate::Outcome;
-use crate::process::{root, say};
+use crate::heliostat::Heliostat;
+use crate::process::{capture, root, say};
+use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 /// Generates every asset. Running it twice gives the same bytes.
 pub(crate) fn run() -> Outcome {
+    from_formulas()?;
+    let heliostat = Heliostat::build()?;
+    export_cells(&heliostat)?;
+    partition::draw(&heliostat)
+}
+
+/// Generates every asset, and fails when a committed one was not what it is now.
+pub(crate) fn check() -> Outcome {
+    let before = committed()?;
+    run()?;
+    let after = committed()?;
+    match after.iter().find(|(path, bytes)| before.get(*path) != Some(*bytes)) {
+        Some((path, _)) => Err(format!("{} was not what `cargo xtask assets` makes", path.display())),
+        None => Ok(()),
+    }
+}
+
+/// The bytes of all files that are committed.
+fn committed() -> Result<BTreeMap<PathBuf, Vec<u8>>, String> {
+    let mut files = vec![root().join(partition::PICTURE)];
+    for folder in ["assets/meshes", "assets/textures"] {
+        let entries = std::fs::read_dir(root().join(folder)).map_err(|e| format!("{folder}: {e}"))?;
+        files.extend(entries.filter_map(|entry| Some(entry.ok()?.path())));
+    }
+    let read = |path: PathBuf| match std::fs::read(&path) {
+        Ok(bytes) => Ok((path, bytes)),
+        Err(error) => Err(format!("{}: {error}", path.display())),
+    };
+    files.into_iter().map(read).collect()
+}
+
+fn from_formulas() -> Outcome {
     let folder = root().join("assets");
     for name in ["meshes", "textures", "large"] {
         std::fs::create_dir_all(folder.join(name)).map_err(|e| format!("{}: {e}", folder.display()))?;
@@ -37,5 +72,13 @@ pub(crate) fn run() -> Outcome {
         let path = folder.join("textures").join(name);
         image.save(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     }
-    partition::draw()
+    Ok(())
+}
+
+/// The cells around the coarse sphere, as a mesh of its own.
+fn export_cells(heliostat: &Heliostat) -> Outcome {
+    let (mesh, cells) = ("assets/meshes/facets.obj", "assets/meshes/partition.obj");
+    say(&format!("{cells}: the cells around {mesh}"));
+    let flags = ["index", mesh, "--preset", "midpoint", "--what", "leaves", "--export", cells];
+    capture(heliostat.command(&flags)).map(drop)
 }

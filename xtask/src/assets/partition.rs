@@ -9,7 +9,7 @@ use glam::{DVec3, IVec2, ivec2};
 use std::fmt::Write;
 
 const MESH: &str = "assets/meshes/bird.obj";
-const PICTURE: &str = "crates/index/docs/partition.svg";
+pub(super) const PICTURE: &str = "crates/index/docs/partition.svg";
 
 /// The plane of the slice: a little beside the middle, where vertices may lie.
 const SLICE_X: f64 = 0.01;
@@ -50,8 +50,7 @@ struct Partition {
 }
 
 /// Draws the picture.
-pub(super) fn draw() -> Outcome {
-    let heliostat = Heliostat::build()?;
+pub(super) fn draw(heliostat: &Heliostat) -> Outcome {
     let mesh = read(MESH)?;
     let view = View::of(&mesh)?;
     let mut partitions = Vec::new();

@@ -5,7 +5,8 @@ use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
 const AFTER_HELP: &str = "\
-Every mesh has a tree of its own, over its triangles; the object tree is over the boxes of the objects.
+Every mesh has a tree of its own, over its triangles, every group one over the boxes of its objects and one over those of its
+copies, where there are several; the object tree is over the boxes of the objects.
 
 Examples:
   heliostat index model.obj                                  statistics of all trees
@@ -41,7 +42,7 @@ pub(crate) struct IndexArgs {
     #[arg(long, value_name = "RAYS", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     pub(crate) verify: Option<u32>,
 
-    /// Where `--verify` saves the rays that an index gets wrong, if there are any [default: SCENE.disagreements.jsonl]
+    /// Where `--verify` saves the rays that an index gets wrong, the first few thousand if there are more [default: SCENE.disagreements.jsonl]
     #[arg(long, value_name = "FILE", requires = "verify")]
     pub(crate) disagreements: Option<PathBuf>,
 

@@ -163,7 +163,7 @@ pub enum Shape {
 
 impl Shape {
     /// The nearest root that the ray accepts: [`Geometry::hit`] without the indirect call.
-    #[inline]
+    #[inline(always)]
     pub fn hit(&self, ray: &LocalRay) -> Option<Root> {
         match self {
             Self::Sphere(s) => s.hit(ray),

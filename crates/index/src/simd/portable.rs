@@ -1,7 +1,8 @@
 //! The lanes on plain arrays.
 
 use super::{LANES, Lanes, Pending, Row, Stack};
-use glam::{Vec3A, Vec3Swizzles};
+use glam::Vec3A;
+use heliostat_geometry::triangle;
 
 /// Eight lanes on any processor.
 #[derive(Clone, Copy, Debug)]
@@ -114,11 +115,7 @@ impl Lanes for Portable {
 
     #[inline(always)]
     fn turned(self, along: usize, v: Vec3A) -> Vec3A {
-        match along {
-            0 => v.yzx(),
-            1 => v.zxy(),
-            _ => v,
-        }
+        triangle::turned(along, v)
     }
 
     #[inline(always)]

@@ -16,6 +16,9 @@ use heliostat_geometry::{Aabb, Ray, TriMesh};
 use random::Random;
 use std::ops::Range;
 
+/// Kinds of rays; see [`Verifier::ray`].
+const KINDS: u64 = 5;
+
 /// A ray on which an index does not say what brute force says.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Disagreement {
@@ -42,18 +45,25 @@ pub struct Agreement {
     pub hits: u64,
     /// Rays that brute force judged; about the others all indices said the same.
     pub judged: u64,
-    /// Every ray and index that differs: in whether there is a hit, in the triangle, in any bit of the
-    /// distance, or when its any-hit query contradicts.
+    /// How often an index differs: in whether there is a hit, in the triangle, in any bit of the distance, or when its
+    /// any-hit query contradicts.
+    pub differing: u64,
+    /// The first of these, [`Agreement::KEPT`] at most.
     pub disagreements: Vec<Disagreement>,
 }
 
 impl Agreement {
-    /// Adds what came of other rays.
-    pub fn merge(&mut self, other: Self) {
-        self.rays += other.rays;
-        self.hits += other.hits;
-        self.judged += other.judged;
-        self.disagreements.extend(other.disagreements);
+    /// How many disagreements are kept; more are counted, so that an index that is always wrong fills no memory.
+    pub const KEPT: usize = 4096;
+
+    /// Adds what came of the rays that follow.
+    pub fn merge(&mut self, next: Self) {
+        self.rays += next.rays;
+        self.hits += next.hits;
+        self.judged += next.judged;
+        self.differing += next.differing;
+        let free = Self::KEPT.saturating_sub(self.disagreements.len());
+        self.disagreements.extend(next.disagreements.into_iter().take(free));
     }
 }
 
@@ -97,8 +107,8 @@ impl<'m> Verifier<'m> {
         &self.trees
     }
 
-    /// Lets brute force judge only one ray in so many, and every ray about which the indices differ: on large meshes it would
-    /// take days to judge all.
+    /// Lets brute force judge only one ray in so many, of every kind alike, and every ray about which the indices differ: on
+    /// large meshes it would take days to judge all.
     ///
     /// # Panics
     /// When `rays` is 0.
@@ -116,7 +126,7 @@ impl<'m> Verifier<'m> {
             let answers = self.answers(&ray);
             agreement.rays += 1;
             if let Some(hit) = unanimous(&answers)
-                && number % self.judge_every != 0
+                && !(number / KINDS).is_multiple_of(self.judge_every)
             {
                 agreement.hits += u64::from(hit);
                 continue;
@@ -139,7 +149,7 @@ impl<'m> Verifier<'m> {
         let expected = brute_force(self.mesh, &ray);
         let differs =
             |&(_, (got, got_any)): &(&str, Answer)| got != expected || got_any != expected.is_some();
-        let disagreements = answers
+        let disagreements: Vec<_> = answers
             .into_iter()
             .filter(differs)
             .map(|(index, (got, got_any))| {
@@ -147,7 +157,8 @@ impl<'m> Verifier<'m> {
                 Disagreement { number, ray, index, expected, got, got_any }
             })
             .collect();
-        Agreement { rays: 0, hits: u64::from(expected.is_some()), judged: 1, disagreements }
+        let differing = disagreements.len() as u64;
+        Agreement { rays: 0, hits: u64::from(expected.is_some()), judged: 1, differing, disagreements }
     }
 
     /// What each index says of a ray.
@@ -186,7 +197,7 @@ impl<'m> Verifier<'m> {
         let outside = self.bounds.centre() + 2.0 * self.bounds.radius() * random.direction();
         let inside = random.point(self.bounds);
         let [a, b, _] = self.mesh.corners(random.below(self.mesh.triangles.len()) as u32);
-        let ray = match number % 5 {
+        let ray = match number % KINDS {
             0 => Ray::new(outside, inside - outside),
             1 => self.parallel_ray(a, inside, &mut random),
             2 => Ray::new(outside, a - outside),

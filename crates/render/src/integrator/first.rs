@@ -23,8 +23,7 @@ impl Sample {
 pub(super) fn first_hit(world: &World<'_>, ray: &CameraRay) -> Option<(SurfaceHit, FirstHit)> {
     let mut passing = PassingRay::free(ray.ray);
     loop {
-        let seen = world.seen(&passing, ray.time, true)?;
-        let surface = seen.surface;
+        let surface = world.seen(&passing, ray.time, true)?;
         let (object, material) = match surface.owner {
             Owner::Object { index, material } => (index, material),
             Owner::Light(_) => return Some((surface, on_light(&surface, ray.ray.dir))),
@@ -33,7 +32,7 @@ pub(super) fn first_hit(world: &World<'_>, ray: &CameraRay) -> Option<(SurfaceHi
         if point.opacity >= COVERING {
             return Some((surface, point.first_hit(object, material)));
         }
-        passing = passing.behind(seen.thing, &surface, ray.ray.dir);
+        passing = passing.behind(&surface, ray.ray.dir);
     }
 }
 

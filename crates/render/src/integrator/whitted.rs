@@ -15,7 +15,7 @@ use crate::counters::RayCounters;
 use crate::light::{self, direct};
 use crate::sampler::Sampler;
 use crate::shading::ShadingPoint;
-use crate::world::{Inside, Owner, PassingRay, Seen, World};
+use crate::world::{Inside, Owner, PassingRay, SurfaceHit, World};
 use heliostat_scene::{RenderSettings, Rgb};
 
 /// Streams of random numbers of the branches.
@@ -78,7 +78,7 @@ impl Integrator for Whitted {
         counters: &mut RayCounters,
     ) -> Sample {
         let mut found = Found::default();
-        let mut next = Some(Branch {
+        let mut branch = Branch {
             passing: PassingRay::free(ray.ray),
             weight: Rgb::ONE,
             depth: 0,
@@ -86,10 +86,11 @@ impl Integrator for Whitted {
             from_camera: true,
             passed_only: true,
             sampler: sampler.fork(0),
-        });
-        while let Some(branch) = next {
-            self.follow(world, branch, ray.time, &mut found, counters);
-            next = found.pending.pop();
+        };
+        loop {
+            self.follow(world, &mut branch, ray.time, &mut found, counters);
+            let Some(next) = found.pending.pop() else { break };
+            branch = next;
         }
         Sample { radiance: found.radiance, alpha: 1.0 - found.through, first: found.first }
     }
@@ -100,17 +101,17 @@ impl Whitted {
     fn follow(
         &self,
         world: &World<'_>,
-        mut branch: Branch,
+        branch: &mut Branch,
         time: f32,
         found: &mut Found,
         counters: &mut RayCounters,
     ) {
         // Find what the ray meets first, and colour what comes through glass.
-        let Some(seen) = world.seen_inside(&branch.passing, branch.inside, time, branch.from_camera) else {
-            self.leave(world, &branch, found);
+        let seen = world.seen_inside(&branch.passing, branch.inside, time, branch.from_camera);
+        let Some(surface) = &seen else {
+            self.leave(world, branch, found);
             return;
         };
-        let surface = &seen.surface;
         let dir = branch.passing.ray.dir;
         let way = surface.hit.t * dir.length();
         if let Some(inside) = branch.inside {
@@ -135,10 +136,10 @@ impl Whitted {
         // Let the ray go on where the surface is cut away.
         if point.opacity < 1.0 {
             let straight = Branch {
-                passing: branch.passing.behind(seen.thing, surface, dir),
+                passing: branch.passing.behind(surface, dir),
                 weight: (1.0 - point.opacity) * branch.weight,
                 sampler: branch.sampler.fork(STRAIGHT_BRANCH),
-                ..branch
+                ..*branch
             };
             self.push(straight, found, &mut counters.refraction);
             branch.weight *= point.opacity;
@@ -155,7 +156,7 @@ impl Whitted {
 
         // Follow mirror and glass.
         if branch.depth < self.max_depth {
-            self.mirror_and_glass(&branch, &seen, &point, found, counters);
+            self.mirror_and_glass(branch, surface, &point, found, counters);
         }
     }
 
@@ -163,7 +164,7 @@ impl Whitted {
     fn mirror_and_glass(
         &self,
         branch: &Branch,
-        seen: &Seen,
+        surface: &SurfaceHit,
         point: &ShadingPoint<'_>,
         found: &mut Found,
         counters: &mut RayCounters,
@@ -171,7 +172,7 @@ impl Whitted {
         let split = point.split();
         if split.mirror != Rgb::ZERO {
             let reflected = Branch {
-                passing: PassingRay::free(seen.surface.hit.spawn(split.mirror_dir)),
+                passing: PassingRay::free(surface.hit.spawn(split.mirror_dir)),
                 weight: branch.weight * split.mirror,
                 depth: branch.depth + 1,
                 from_camera: false,
@@ -183,12 +184,13 @@ impl Whitted {
         }
         if let Some((weight, dir)) = split.glass {
             let refracted = Branch {
-                passing: branch.passing.behind(seen.thing, &seen.surface, dir),
+                passing: branch.passing.behind(surface, dir),
                 weight: branch.weight * weight,
                 depth: branch.depth + 1,
-                inside: point
-                    .enters
-                    .then_some(Inside { thing: seen.thing, absorption: point.phong.absorption }),
+                inside: surface
+                    .thing()
+                    .filter(|_| point.enters)
+                    .map(|thing| Inside { thing, absorption: point.phong.absorption }),
                 from_camera: false,
                 sampler: branch.sampler.fork(GLASS_BRANCH),
                 ..*branch

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 use heliostat_geometry::shape::Root;
+use heliostat_geometry::triangle::TriangleHit;
 use heliostat_geometry::{Hit, Ray, Shape, Transform, TriMesh};
 use heliostat_index::{MeshHit, MeshTree, TraversalCost};
 use std::sync::Arc;
@@ -16,12 +17,39 @@ pub(crate) enum Body<'s> {
 }
 
 /// Where a ray meets a body, before the surface there is worked out.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Meeting {
-    /// On a shape.
-    Shape(Root),
-    /// On a mesh.
-    Mesh(MeshHit),
+///
+/// One form for shapes and meshes, written where it stays: to copy numbers that have just been written costs a search more
+/// than to find them.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Meeting {
+    /// Ray parameter; on meshes an `f32`.
+    t: f64,
+    /// The part of the shape, or the triangle.
+    face: u32,
+    /// Weights of the corners of the triangle.
+    weights: [f32; 3],
+}
+
+impl Meeting {
+    #[inline(always)]
+    fn on_shape(root: Root) -> Self {
+        Self { t: root.t, face: root.part.into(), weights: [0.0; 3] }
+    }
+
+    #[inline(always)]
+    fn on_mesh(MeshHit { triangle, hit }: MeshHit) -> Self {
+        Self { t: hit.t.into(), face: triangle, weights: hit.barycentric }
+    }
+
+    #[inline(always)]
+    fn root(&self) -> Root {
+        Root { t: self.t, part: self.face as u8 }
+    }
+
+    #[inline(always)]
+    fn triangle_hit(&self) -> TriangleHit {
+        TriangleHit { t: self.t as f32, barycentric: self.weights }
+    }
 }
 
 /// Whether anybody looks at the surface parameters of a hit.
@@ -48,19 +76,14 @@ pub(crate) struct SurfaceAt {
 }
 
 impl Body<'_> {
-    /// The nearest meeting in the range of the ray; `place` is the map to world space.
+    /// The nearest meeting in the range of the ray: where on the ray, and the rest in `met`; `place` is the map to world space.
     #[inline]
-    pub(super) fn closest(&self, place: &Transform, ray: &Ray) -> Option<(f32, Meeting)> {
-        match self {
-            Self::Shape(shape) => {
-                let root = shape.hit(&place.local_ray(ray))?;
-                Some((root.t as f32, Meeting::Shape(root)))
-            }
-            Self::Mesh { tree, .. } => {
-                let found = tree.closest_hit(&place.ray_to_local(ray))?;
-                Some((found.hit.t, Meeting::Mesh(found)))
-            }
-        }
+    pub(super) fn closest(&self, place: &Transform, ray: &Ray, met: &mut Meeting) -> Option<f32> {
+        *met = match self {
+            Self::Shape(shape) => Meeting::on_shape(shape.hit(&place.local_ray(ray))?),
+            Self::Mesh { tree, .. } => Meeting::on_mesh(tree.closest_hit(&place.ray_to_local(ray))?),
+        };
+        Some(met.t as f32)
     }
 
     /// [`Body::closest`] that adds the work of the mesh tree to `cost`.
@@ -68,11 +91,12 @@ impl Body<'_> {
         &self,
         place: &Transform,
         ray: &Ray,
+        met: &mut Meeting,
         cost: &mut TraversalCost,
-    ) -> Option<(f32, Meeting)> {
-        let Self::Mesh { tree, .. } = self else { return self.closest(place, ray) };
-        let found = tree.closest_hit_counted(&place.ray_to_local(ray), cost)?;
-        Some((found.hit.t, Meeting::Mesh(found)))
+    ) -> Option<f32> {
+        let Self::Mesh { tree, .. } = self else { return self.closest(place, ray, met) };
+        *met = Meeting::on_mesh(tree.closest_hit_counted(&place.ray_to_local(ray), cost)?);
+        Some(met.t as f32)
     }
 
     /// Whether anything lies in the range of the ray.
@@ -88,15 +112,14 @@ impl Body<'_> {
     pub(super) fn each_surface(&self, place: &Transform, ray: &Ray, mut visit: impl FnMut(SurfaceAt)) {
         match self {
             Self::Shape(_) => {
-                let mut rest = *ray;
-                while let Some((t, meeting)) = self.closest(place, &rest) {
-                    self.surface(place, &rest, meeting, Parameters::Used).into_iter().for_each(&mut visit);
+                let (mut rest, mut met) = (*ray, Meeting::default());
+                while let Some(t) = self.closest(place, &rest, &mut met) {
+                    visit(self.surface(place, &rest, &met, Parameters::Used));
                     rest.range.min = t.next_up();
                 }
             }
             Self::Mesh { tree, .. } => tree.for_each_hit(&place.ray_to_local(ray), |found| {
-                let surface = self.surface(place, ray, Meeting::Mesh(found), Parameters::Used);
-                surface.into_iter().for_each(&mut visit);
+                visit(self.surface(place, ray, &Meeting::on_mesh(found), Parameters::Used));
             }),
         }
     }
@@ -117,41 +140,40 @@ impl Body<'_> {
     }
 
     /// The surface at a meeting that came from the same ray and place.
-    #[inline]
+    #[inline(always)]
     pub(super) fn surface(
         &self,
         place: &Transform,
         ray: &Ray,
-        meeting: Meeting,
+        meeting: &Meeting,
         parameters: Parameters,
-    ) -> Option<SurfaceAt> {
-        match (self, meeting) {
-            (Self::Shape(shape), Meeting::Shape(root)) => {
-                let (ray, shape) = (place.local_ray(ray), shape.geometry());
+    ) -> SurfaceAt {
+        match self {
+            Self::Shape(shape) => {
+                let (ray, shape, root) = (place.local_ray(ray), shape.geometry(), meeting.root());
                 let local = match parameters {
                     Parameters::Unused => shape.bare_surface(&ray, root),
                     Parameters::Used => shape.surface(&ray, root),
                 };
-                Some(SurfaceAt {
+                SurfaceAt {
                     hit: place.hit_to_world(&local),
                     local: local.p.as_vec3(),
                     slot: 0,
                     color: None,
                     triangle: None,
-                })
+                }
             }
-            (Self::Mesh { mesh, .. }, Meeting::Mesh(MeshHit { triangle, hit })) => {
+            Self::Mesh { mesh, .. } => {
+                let (triangle, hit) = (meeting.face, meeting.triangle_hit());
                 let local = mesh.surface(triangle, &hit);
-                Some(SurfaceAt {
+                SurfaceAt {
                     hit: place.hit_to_world(&local),
                     local: local.p.as_vec3(),
                     slot: mesh.slot(triangle),
                     color: mesh.color(triangle, &hit),
                     triangle: Some((triangle, hit.barycentric)),
-                })
+                }
             }
-            // A meeting of the other kind does not come from this body.
-            _ => None,
         }
     }
 }

@@ -55,10 +55,11 @@ impl PassingRay {
         Self { ray, crossing: None }
     }
 
-    /// A ray in direction `dir` that goes on behind `hit`, which `self` found on `thing`.
-    pub(crate) fn behind(&self, thing: Thing, hit: &SurfaceHit, dir: Vec3) -> Self {
+    /// A ray in direction `dir` that goes on behind `hit`, which `self` found.
+    pub(crate) fn behind(&self, hit: &SurfaceHit, dir: Vec3) -> Self {
         let at = hit.hit.at;
         let behind = at.spawn(dir);
+        let Some(thing) = hit.thing() else { return Self::free(behind) };
         // Surfaces crossed before belong to this place too, when this one lies within their error.
         let before = self.crossing.filter(|crossing| crossing.is_at(&at));
         let (mut things, mut count) =
@@ -73,14 +74,15 @@ impl PassingRay {
         Self { ray: Ray::new(origin, dir), crossing: Some(crossing) }
     }
 
-    /// The ray with which a thing is asked: `range` of the search so far, the origin behind things that are crossed.
+    /// The ray with which a thing is asked: `range` of the search so far, the origin behind things that are crossed. In `room`
+    /// only if it is another one.
     #[inline]
-    pub(super) fn seen_by(&self, thing: Thing, search: &Ray) -> Ray {
+    pub(super) fn seen_by<'a>(&self, thing: Thing, search: &'a Ray, room: &'a mut Option<Ray>) -> &'a Ray {
         match &self.crossing {
             Some(crossing) if crossing.things[..crossing.count as usize].contains(&thing) => {
-                Ray { origin: crossing.behind, ..*search }
+                room.insert(Ray { origin: crossing.behind, ..*search })
             }
-            _ => *search,
+            _ => search,
         }
     }
 }

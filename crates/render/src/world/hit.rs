@@ -1,5 +1,6 @@
 //! What a ray met: a surface point and whose it is.
 
+use super::thing::Thing;
 use glam::Vec3;
 use heliostat_geometry::Hit;
 use heliostat_scene::{MaterialId, Rgb};
@@ -43,6 +44,12 @@ impl SurfaceHit {
             Owner::Object { index, .. } => Some(index),
             Owner::Light(_) => None,
         }
+    }
+
+    /// Which of all things it is, unless the surface belongs to a light.
+    #[inline]
+    pub(crate) fn thing(&self) -> Option<Thing> {
+        Some(Thing { solid: self.object()?, part: self.part })
     }
 
     /// The material, unless the surface belongs to a light.

@@ -83,52 +83,53 @@ impl Level {
         self.tree.as_ref()
     }
 
-    /// See [`RayIndex::closest_hit`]; primitives are indices into the solids.
+    /// See [`RayIndex::closest_hit`]; primitives are indices into the solids. `hit` says where on the ray it met something, and
+    /// leaves the rest in its last argument.
     #[inline]
-    pub(super) fn closest<T>(
+    pub(super) fn closest<T: Default>(
         &self,
         ray: &Ray,
-        mut hit: impl FnMut(u32, &Ray) -> Option<(f32, T)>,
+        mut hit: impl FnMut(u32, &Ray, &mut T) -> Option<f32>,
     ) -> Option<Found<T>> {
         let Some(tree) = &self.tree else { return self.closest_of_few(ray, hit) };
-        let found = tree.closest_hit(ray, |i, ray| hit(self.ids[i as usize], ray))?;
+        let hit = kept(|i: u32, ray: &Ray, data: &mut T| hit(self.ids[i as usize], ray, data));
+        let found = tree.closest_hit(ray, hit)?;
         Some(Found { primitive: self.ids[found.primitive as usize], ..found })
     }
 
     /// [`Level::closest`] that adds its own work to `cost`.
-    pub(super) fn closest_counted<T>(
+    pub(super) fn closest_counted<T: Default>(
         &self,
         ray: &Ray,
         cost: &mut TraversalCost,
-        mut hit: impl FnMut(u32, &Ray) -> Option<(f32, T)>,
+        mut hit: impl FnMut(u32, &Ray, &mut T) -> Option<f32>,
     ) -> Option<Found<T>> {
         let Some(tree) = &self.tree else {
             cost.tests += self.ids.len() as u64;
             return self.closest_of_few(ray, hit);
         };
-        let found = tree.closest_hit_counted(ray, |i, ray| hit(self.ids[i as usize], ray), cost)?;
+        let hit = kept(|i: u32, ray: &Ray, data: &mut T| hit(self.ids[i as usize], ray, data));
+        let found = tree.closest_hit_counted(ray, hit, cost)?;
         Some(Found { primitive: self.ids[found.primitive as usize], ..found })
     }
 
     #[inline]
-    fn closest_of_few<T>(
+    fn closest_of_few<T: Default>(
         &self,
         ray: &Ray,
-        mut hit: impl FnMut(u32, &Ray) -> Option<(f32, T)>,
+        mut hit: impl FnMut(u32, &Ray, &mut T) -> Option<f32>,
     ) -> Option<Found<T>> {
-        let mut search = *ray;
-        let mut nearest: Option<Found<T>> = None;
+        let (mut search, mut nearest, mut data) = (*ray, None, T::default());
         for (&primitive, bound) in self.ids.iter().zip(&self.bounds) {
             if bound.may_meet(&search)
-                && let Some((t, data)) = hit(primitive, &search)
-                // Ids ascend: of two at the same distance the lower one is there already.
-                && nearest.as_ref().is_none_or(|nearest| t < nearest.t)
+                && let Some(t) = hit(primitive, &search, &mut data)
             {
-                search.range.max = t;
-                nearest = Some(Found { primitive, t, data });
+                // Ids ascend: of two at the same distance the lower one stays, so the search ends before it.
+                search.range.max = t.next_down();
+                nearest = Some((primitive, t));
             }
         }
-        nearest
+        nearest.map(|(primitive, t)| Found { primitive, t, data })
     }
 
     /// The solids that count.
@@ -190,5 +191,16 @@ impl Level {
             // Without a tree there are few, if any.
             (None, None) => self.ids.iter().for_each(|&id| visit(id)),
         }
+    }
+}
+
+/// A question whose answer is kept beside the distance, for indices that choose among answers.
+#[inline]
+fn kept<T: Default>(
+    mut hit: impl FnMut(u32, &Ray, &mut T) -> Option<f32>,
+) -> impl FnMut(u32, &Ray) -> Option<(f32, T)> {
+    move |i, ray| {
+        let mut data = T::default();
+        hit(i, ray, &mut data).map(|t| (t, data))
     }
 }

@@ -1,8 +1,9 @@
 //! A scene made ready for rays: indices over objects and meshes, and the table of its lights.
 //!
 //! Levels: each mesh has one tree in its local space, however many objects show it; each group has its indices in its own
-//! space, however often it is placed, at whatever depth; the world has one index over the boxes of its objects. The visible surfaces of area lights stand beside the objects: rays see them, but they throw
-//! no shadow, so that a bulb does not hide the light inside it.
+//! space, however often it is placed, at whatever depth; the world has one index over the boxes of its objects. The visible
+//! surfaces of area lights stand beside the objects: rays see them, but they throw no shadow, so that a bulb does not hide the
+//! light inside it.
 
 mod blocker;
 mod body;
@@ -77,15 +78,6 @@ pub struct World<'s> {
     glass: bool,
     /// Whether all objects are seen by camera rays.
     all_visible: bool,
-}
-
-/// The nearest thing on the way of a ray.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Seen {
-    /// Which, for [`PassingRay::behind`].
-    pub(crate) thing: Thing,
-    /// The surface.
-    pub(crate) surface: SurfaceHit,
 }
 
 impl<'s> World<'s> {
@@ -170,32 +162,32 @@ impl<'s> World<'s> {
 
     /// The nearest surface that a ray meets at `time` in `[0, 1]` over the shutter.
     pub fn closest_hit(&self, ray: &Ray, time: f32) -> Option<SurfaceHit> {
-        self.seen(&PassingRay::free(*ray), time, false).map(|seen| seen.surface)
+        self.seen(&PassingRay::free(*ray), time, false)
     }
 
     /// The nearest surface that the camera sees along a ray.
     pub fn camera_hit(&self, ray: &Ray, time: f32) -> Option<SurfaceHit> {
-        self.seen(&PassingRay::free(*ray), time, true).map(|seen| seen.surface)
+        self.seen(&PassingRay::free(*ray), time, true)
     }
 
     /// [`World::camera_hit`] that adds the work on both levels to `cost`.
     pub fn camera_hit_counted(&self, ray: &Ray, time: f32, cost: &mut TraversalCost) -> Option<SurfaceHit> {
         let below = Cell::new(TraversalCost::default());
         let passing = PassingRay::free(*ray);
-        let found = self.level.closest_counted(ray, cost, |i, ray| {
+        let found = self.level.closest_counted(ray, cost, |i, ray, met| {
             let look = Look { passing: &passing, solid: i, time, camera: true, cost: Some(&below) };
-            self.is_seen(i, true).then(|| self.meet(&look, ray))?
+            self.is_seen(i, true).then(|| self.meet(&look, ray, met))?
         });
         let below = below.get();
         cost.nodes += below.nodes;
         cost.leaves += below.leaves;
         cost.tests += below.tests;
         let found = found?;
-        self.surface(found.primitive, ray, time, found.data, Parameters::Used)
+        self.surface(found.primitive, ray, time, &found.data, Parameters::Used)
     }
 
     /// The nearest thing on the way of a ray; invisible objects are left out for the camera.
-    pub(crate) fn seen(&self, passing: &PassingRay, time: f32, camera: bool) -> Option<Seen> {
+    pub(crate) fn seen(&self, passing: &PassingRay, time: f32, camera: bool) -> Option<SurfaceHit> {
         self.nearest(passing, time, camera, |_| Parameters::Used)
     }
 
@@ -206,40 +198,37 @@ impl<'s> World<'s> {
         time: f32,
         camera: bool,
         parameters: impl Fn(u32) -> Parameters,
-    ) -> Option<Seen> {
-        let found = self.level.closest(&passing.ray, |i, search| {
+    ) -> Option<SurfaceHit> {
+        let found = self.level.closest(&passing.ray, |i, search, met| {
             if !self.is_seen(i, camera) {
                 return None;
             }
-            self.meet(&Look { passing, solid: i, time, camera, cost: None }, search)
+            self.meet(&Look { passing, solid: i, time, camera, cost: None }, search, met)
         })?;
         let thing = Thing { solid: found.primitive, part: found.data.part };
-        let ray = passing.seen_by(thing, &passing.ray);
-        let surface = self.surface(thing.solid, &ray, time, found.data, parameters(thing.solid))?;
-        Some(Seen { thing, surface })
+        let mut room = None;
+        let ray = passing.seen_by(thing, &passing.ray, &mut room);
+        self.surface(thing.solid, ray, time, &found.data, parameters(thing.solid))
     }
 
-    /// The nearest meeting of a ray with one solid.
-    #[inline]
-    fn meet(&self, look: &Look<'_>, search: &Ray) -> Option<(f32, Met)> {
+    /// The nearest meeting of a ray with one solid: where on the ray, and the rest in `met`.
+    #[inline(always)]
+    fn meet(&self, look: &Look<'_>, search: &Ray, met: &mut Met) -> Option<f32> {
         let solid = &self.solids[look.solid as usize];
+        let Content::Body(body) = &solid.content else { return self.meet_parts(look, search, met) };
         let mut room = None;
-        let place = solid.place.at(look.time, &mut room)?;
-        let body = match &solid.content {
-            Content::Body(body) => body,
-            Content::Group(group) => return group.closest(look, search, place, 0),
-        };
-        let ray = look.passing.seen_by(Thing::whole(look.solid), search);
-        let (t, meeting) = match look.cost {
-            None => body.closest(place, &ray)?,
-            Some(cost) => {
-                let mut sum = cost.get();
-                let found = body.closest_counted(place, &ray, &mut sum);
-                cost.set(sum);
-                found?
-            }
-        };
-        Some((t, Met { part: 0, meeting }))
+        look.closest(body, 0, search, solid.place.at(look.time, &mut room)?, met)
+    }
+
+    /// [`World::meet`] for a group; apart, so that shapes and meshes need not make room for it.
+    #[inline(never)]
+    fn meet_parts(&self, look: &Look<'_>, search: &Ray, met: &mut Met) -> Option<f32> {
+        let solid = &self.solids[look.solid as usize];
+        let Content::Group(group) = &solid.content else { return None };
+        let mut room = None;
+        let (t, part) = group.closest(look, search, solid.place.at(look.time, &mut room)?, 0)?;
+        *met = part;
+        Some(t)
     }
 
     /// [`World::seen`] for a ray that may run through glass: where the surface of the glass and another one lie in the same
@@ -252,28 +241,26 @@ impl<'s> World<'s> {
         inside: Option<Inside>,
         time: f32,
         camera: bool,
-    ) -> Option<Seen> {
-        let seen = self.nearest(passing, time, camera, |i| self.parameters[i as usize])?;
-        if let Some(inside) = inside.filter(|inside| inside.thing != seen.thing) {
-            let exit = self.seen_on(inside.thing, passing, time).filter(|exit| {
-                let ng = exit.surface.hit.at.ng;
-                ng.dot(passing.ray.dir) > 0.0 && coincide(&exit.surface.hit.at, &seen.surface.hit.at)
-            });
-            if exit.is_some() {
-                return exit;
-            }
+    ) -> Option<SurfaceHit> {
+        let seen = self.nearest(passing, time, camera, |i| self.parameters[i as usize]);
+        let (Some(inside), Some(surface)) = (inside, &seen) else { return seen };
+        if surface.thing() == Some(inside.thing) {
+            return seen;
         }
-        Some(seen)
+        let exit = self.seen_on(inside.thing, passing, time).filter(|exit| {
+            exit.hit.at.ng.dot(passing.ray.dir) > 0.0 && coincide(&exit.hit.at, &surface.hit.at)
+        });
+        exit.or(seen)
     }
 
     /// The nearest surface of one thing on the way of a ray.
-    fn seen_on(&self, thing: Thing, passing: &PassingRay, time: f32) -> Option<Seen> {
-        let ray = passing.seen_by(thing, &passing.ray);
-        let (_, meeting) =
-            self.with_thing(thing, time, |standing| standing.body.closest(standing.place, &ray))?;
-        let met = Met { part: thing.part, meeting };
-        let surface = self.surface(thing.solid, &ray, time, met, Parameters::Used)?;
-        Some(Seen { thing, surface })
+    fn seen_on(&self, thing: Thing, passing: &PassingRay, time: f32) -> Option<SurfaceHit> {
+        let (mut room, mut met) = (None, Met { part: thing.part, ..Met::default() });
+        let ray = passing.seen_by(thing, &passing.ray, &mut room);
+        self.with_thing(thing, time, |standing| {
+            standing.body.closest(standing.place, ray, &mut met.meeting)
+        })?;
+        self.surface(thing.solid, ray, time, &met, Parameters::Used)
     }
 
     /// The lights that shine from somewhere.
@@ -298,23 +285,33 @@ impl<'s> World<'s> {
         solid: u32,
         ray: &Ray,
         time: f32,
-        met: Met,
+        met: &Met,
         parameters: Parameters,
     ) -> Option<SurfaceHit> {
         let (index, solid) = (solid, &self.solids[solid as usize]);
+        let Content::Body(body) = &solid.content else {
+            return self.surface_of_part(index, ray, time, met, parameters);
+        };
         let mut room = None;
-        let place = solid.place.at(time, &mut room)?;
-        match &solid.content {
-            Content::Body(body) => {
-                let found = body.surface(place, ray, met.meeting, parameters)?;
-                Some(self.owned(index, 0, self.scene.objects.get(index as usize), found))
-            }
-            Content::Group(group) => group.with_part(met.part, place, time, &mut |part| {
-                let parameters = if parameters == Parameters::Used { parameters } else { part.parameters };
-                let found = part.body.surface(part.place, ray, met.meeting, parameters)?;
-                Some(self.owned(index, met.part, part.object, found))
-            }),
-        }
+        let found = body.surface(solid.place.at(time, &mut room)?, ray, &met.meeting, parameters);
+        Some(self.owned(index, 0, self.scene.objects.get(index as usize), found))
+    }
+
+    /// [`World::surface`] for a group; apart, as [`World::meet_parts`].
+    #[inline(never)]
+    fn surface_of_part(
+        &self,
+        solid: u32,
+        ray: &Ray,
+        time: f32,
+        met: &Met,
+        parameters: Parameters,
+    ) -> Option<SurfaceHit> {
+        self.with_thing(Thing { solid, part: met.part }, time, |part| {
+            let parameters = if parameters == Parameters::Used { parameters } else { part.parameters };
+            let found = part.body.surface(part.place, ray, &met.meeting, parameters);
+            Some(self.owned(solid, met.part, part.object, found))
+        })
     }
 
     /// A surface with its owner.

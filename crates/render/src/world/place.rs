@@ -85,6 +85,7 @@ impl<'s> Place<'s> {
 }
 
 /// The transform of a moment; `None` where it has no inverse.
+#[inline(never)]
 fn between(motion: &Motion, time: f32) -> Option<Transform> {
     let (before, after, weight) = motion.around(time);
     before.lerp(after, weight)

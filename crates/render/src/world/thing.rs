@@ -15,7 +15,7 @@ pub(crate) struct Thing {
 }
 
 /// Where a ray met a thing of some solid, before the surface there is worked out.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Met {
     /// See [`Thing::part`].
     pub(super) part: u64,
@@ -32,12 +32,4 @@ pub(super) struct Standing<'w, 's> {
     pub(super) object: Option<&'s Object>,
     /// Whether the material of the object, or a layer, looks at surface parameters.
     pub(super) parameters: Parameters,
-}
-
-impl Thing {
-    /// An object that is no group, or the surface of a light.
-    #[inline]
-    pub(super) fn whole(solid: u32) -> Self {
-        Self { solid, part: 0 }
-    }
 }

@@ -149,3 +149,23 @@ fn an_infinite_plane_in_a_group_has_no_end() {
     assert_eq!((hit(0.0).hit.t, hit(0.0).part), (6.0, 1));
     assert_eq!((hit(1e6).hit.t, hit(1e6).part), (7.0, 0));
 }
+
+#[test]
+fn what_hides_a_part_of_a_group_is_whole() {
+    let mut stage = Stage::new();
+    let near = stage.add(sphere(1.0), white(), crate::common::at(0.0, 5.0, 0.0)).clone();
+    let parts = [0.0, 2.0].map(|x| stage.add(sphere(1.0), white(), crate::common::at(x, 0.0, 0.0)).clone());
+    let mut placed = near.clone();
+    stage.scene.groups.push(Group::once("pair", parts.to_vec()));
+    placed.geometry = Geometry::Group(GroupId(0));
+    placed.materials.clear();
+    placed.motion = Motion::still(crate::common::at(-2.0, 0.0, 0.0));
+    stage.scene.objects = vec![placed, near];
+    let looker = Looker::new(&stage);
+    let hit = |from: f32| {
+        let found = looker.world.closest_hit(&Ray::new(Vec3::new(0.0, from, 0.0), Vec3::NEG_Y), 0.0).unwrap();
+        (found.hit.t, found.object(), found.part)
+    };
+    assert_eq!(hit(9.0), (3.0, Some(1), 0));
+    assert_eq!(hit(3.0), (2.0, Some(0), 1));
+}

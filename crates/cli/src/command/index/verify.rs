@@ -22,12 +22,12 @@ pub(super) struct Judged {
 /// Which rays are traced: the same ones in every run.
 pub(super) const SEED: u64 = 0;
 
-/// Traces `rays` rays through each mesh of the scene; returns every disagreement, too.
+/// Traces `rays` rays through each mesh of the scene; returns the first disagreements, too.
 pub(super) fn run(scene: &Scene, presets: &[Preset], rays: u32) -> Result<(Judged, Vec<Found>), Failure> {
     let settings: Vec<_> = presets.iter().map(|&preset| (name(preset), params(preset))).collect();
     let mut text = String::new();
     let mut meshes = Vec::new();
-    let mut found: Vec<Found> = Vec::new();
+    let (mut differing, mut found) = (0, Vec::new());
     for (number, mesh) in scene.meshes.iter().enumerate() {
         let mesh_name = trees::mesh_name(scene, number);
         let verifier = Verifier::new(mesh, &settings).map_err(|e| trees::failure(&mesh_name, &e))?;
@@ -39,14 +39,26 @@ pub(super) fn run(scene: &Scene, presets: &[Preset], rays: u32) -> Result<(Judge
             "rays": agreement.rays,
             "hits": agreement.hits,
             "judged_by_brute_force": agreement.judged,
-            "disagreements": agreement.disagreements.len(),
+            "disagreements": agreement.differing,
         }));
-        found.extend(agreement.disagreements.into_iter().map(|wrong| (number, wrong)));
+        differing += agreement.differing;
+        keep(&mut found, number, agreement.disagreements);
+    }
+    if differing > found.len() as u64 {
+        // Writing into a `String` cannot fail.
+        let (kept, all) = (table::count(found.len()), table::count(differing as usize));
+        let _ = writeln!(text, "verify: the first {kept} of {all} disagreements are kept");
     }
     if scene.meshes.is_empty() {
         text.push_str("verify: the scene has no mesh\n");
     }
     Ok((Judged { agrees: found.is_empty(), text, json: json!(meshes) }, found))
+}
+
+/// Adds the disagreements of one more mesh, as many as are kept of all meshes together.
+fn keep(found: &mut Vec<Found>, mesh: usize, disagreements: Vec<Disagreement>) {
+    let free = Agreement::KEPT.saturating_sub(found.len());
+    found.extend(disagreements.into_iter().take(free).map(|wrong| (mesh, wrong)));
 }
 
 /// One ray in how many brute force judges, so that it takes about a minute at most; the others are judged where the trees and the
@@ -56,7 +68,7 @@ fn judge_every(rays: u64, triangles: u64) -> u64 {
     (rays.saturating_mul(triangles) / MOST_TESTS).max(1)
 }
 
-/// All rays, spread over the processors; the order of the pieces does not change the sum.
+/// All rays, spread over the processors; what came of the pieces is joined in their order.
 fn trace(verifier: &Verifier<'_>, rays: u32) -> Agreement {
     const PIECE: u32 = 256;
     let pieces = rays.div_ceil(PIECE);
@@ -72,7 +84,7 @@ fn describe(mesh: &str, agreement: &Agreement, text: &mut String) {
     const SHOWN: usize = 5;
     let rays = table::count(agreement.rays as usize);
     let hits = table::count(agreement.hits as usize);
-    let wrong = agreement.disagreements.len();
+    let wrong = agreement.differing as usize;
     // Writing into a `String` cannot fail.
     let _ = match wrong {
         0 if agreement.judged == agreement.rays => {
@@ -86,6 +98,7 @@ fn describe(mesh: &str, agreement: &Agreement, text: &mut String) {
             )
         }
         _ => {
+            let wrong = table::count(wrong);
             writeln!(text, "verify: {mesh}: {rays} rays, {hits} hits, {wrong} DISAGREEMENTS with brute force")
         }
     };
@@ -113,3 +126,6 @@ pub(super) fn difference(found: &Disagreement) -> String {
     };
     format!("{} says {}{any}, brute force {}", found.index, says(found.got), says(found.expected))
 }
+
+#[cfg(test)]
+mod tests;

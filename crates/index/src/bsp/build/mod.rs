@@ -64,8 +64,10 @@ pub(crate) fn build<P: Primitives + ?Sized>(
     let content = refs.around();
     let bounds = content.bounds();
 
-    let budget = (f64::from(params.max_duplication) - 1.0) * refs.len() as f64;
-    let root = Cell { bounds, content, depth: 0, budget: budget as usize + SPARE_REFERENCES, wasted: 0 };
+    let spare = (f64::from(params.max_duplication) - 1.0) * refs.len() as f64;
+    // More than nodes can name need not be counted.
+    let budget = spare.min(MAX_TAG as f64) as usize + SPARE_REFERENCES;
+    let root = Cell { bounds, content, depth: 0, budget, wasted: 0 };
     let cutter = Cutter { primitives, params, blur, group: layout.group };
     let root = branch(&cutter, root, refs);
 

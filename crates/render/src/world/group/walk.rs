@@ -1,5 +1,6 @@
 //! The way of a ray down through the levels of a group.
 
+use super::super::body::Body;
 use super::super::crossing::PassingRay;
 use super::super::solid::Content;
 use super::super::thing::{Met, Standing, Thing};
@@ -21,6 +22,33 @@ pub(in super::super) struct Look<'q> {
     pub(in super::super) camera: bool,
     /// Where the work on all levels is added up.
     pub(in super::super) cost: Option<&'q Cell<TraversalCost>>,
+}
+
+impl Look<'_> {
+    /// The nearest meeting with the body of one part in the range of `search`: where on the ray, and the rest in `met`, which
+    /// holds what it likes where there is none.
+    #[inline(always)]
+    pub(in super::super) fn closest(
+        &self,
+        body: &Body<'_>,
+        part: u64,
+        search: &Ray,
+        place: &Transform,
+        met: &mut Met,
+    ) -> Option<f32> {
+        let mut room = None;
+        let ray = self.passing.seen_by(Thing { solid: self.solid, part }, search, &mut room);
+        let t = match self.cost {
+            None => body.closest(place, ray, &mut met.meeting),
+            Some(cost) => {
+                let mut below = TraversalCost::default();
+                let found = body.closest_counted(place, ray, &mut met.meeting, &mut below);
+                add(cost, below);
+                found
+            }
+        };
+        t.inspect(|_| met.part = part)
+    }
 }
 
 impl<'s> PreparedGroup<'s> {
@@ -104,17 +132,8 @@ impl<'s> Member<'s> {
                 Content::Body(body) => body,
                 Content::Group(group) => return group.closest(look, search, place, part),
             };
-            let ray = look.passing.seen_by(Thing { solid: look.solid, part }, search);
-            let (t, meeting) = match look.cost {
-                None => body.closest(place, &ray)?,
-                Some(cost) => {
-                    let mut below = TraversalCost::default();
-                    let found = body.closest_counted(place, &ray, &mut below);
-                    add(cost, below);
-                    found?
-                }
-            };
-            Some((t, Met { part, meeting }))
+            let mut met = Met::default();
+            look.closest(body, part, search, place, &mut met).map(|t| (t, met))
         })
     }
 

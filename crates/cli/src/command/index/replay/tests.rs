@@ -58,7 +58,7 @@ fn an_index_that_is_still_wrong_is_told() {
     let ray = Ray::new([0.25, 0.25, 1.0].into(), [0.0, 0.0, -1.0].into());
     let saved = Saved { line: 3, mesh: 0, number: 7, index: "best".into(), ray };
     let disagreements = vec![disagreement(ray)];
-    let agreement = Agreement { rays: 1, hits: 0, judged: 1, disagreements };
+    let agreement = Agreement { rays: 1, hits: 0, judged: 1, differing: 1, disagreements };
     let judged = report(&[(&saved, agreement)], "a.jsonl", |mesh| format!("mesh {mesh}"));
     assert!(!judged.agrees);
     let mut lines = judged.text.lines();
