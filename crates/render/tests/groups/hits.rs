@@ -160,6 +160,7 @@ fn what_hides_a_part_of_a_group_is_whole() {
     placed.geometry = Geometry::Group(GroupId(0));
     placed.materials.clear();
     placed.motion = Motion::still(crate::common::at(-2.0, 0.0, 0.0));
+    placed.name = "pair".to_owned();
     stage.scene.objects = vec![placed, near];
     let looker = Looker::new(&stage);
     let hit = |from: f32| {
