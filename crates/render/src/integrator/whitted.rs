@@ -9,6 +9,7 @@
 //! Image Synthesis", IEEE CG&A 1983 (cutting by weight).
 
 use super::first::on_light;
+use super::next_event::left_of;
 use super::{CameraRay, FirstHit, Integrator, Sample};
 use crate::background;
 use crate::counters::RayCounters;
@@ -214,12 +215,4 @@ impl Whitted {
             found.radiance += branch.weight * background::radiance(&world.scene().background, dir);
         }
     }
-}
-
-/// The share of light that is left after a way through something with an absorption per metre.
-///
-/// # Source
-/// The law of Bouguer, Lambert and Beer.
-fn left_of(absorption: Rgb, way: f32) -> Rgb {
-    if absorption == Rgb::ZERO { Rgb::ONE } else { (-way * absorption).exp() }
 }

@@ -22,6 +22,13 @@ pub(super) struct SphereSample {
 }
 
 impl WorldSphere {
+    /// The solid angle of the sphere as seen from `p`; `None` from inside.
+    #[inline]
+    pub(super) fn solid_angle(&self, p: Vec3) -> Option<f32> {
+        let sin2_max = self.radius * self.radius / (self.centre - p.as_dvec3()).length_squared();
+        (sin2_max < 1.0).then(|| (TAU * sin2_max / (1.0 + (1.0 - sin2_max).sqrt())) as f32)
+    }
+
     /// A direction from `p` uniform over the sphere as seen from there; `None` from inside.
     pub(super) fn sample(&self, p: Vec3, u: Vec2) -> Option<SphereSample> {
         let to_centre = self.centre - p.as_dvec3();

@@ -73,6 +73,15 @@ impl PassingRay {
         Self { ray: Ray::new(origin, dir), crossing: Some(crossing) }
     }
 
+    /// `ray`, which returns from a hit that `self` found on `thing`: what was crossed in its place is met again.
+    #[inline]
+    pub(crate) fn back(&self, thing: Thing, hit: &SurfaceHit, ray: Ray) -> Self {
+        match &self.crossing {
+            Some(crossing) if crossing.is_at(&hit.hit.at) => Self::free(ray).behind(thing, hit, ray.dir),
+            _ => Self::free(ray),
+        }
+    }
+
     /// The ray with which a thing is asked: `range` of the search so far, the origin behind things that are crossed.
     #[inline]
     pub(super) fn seen_by(&self, thing: Thing, search: &Ray) -> Ray {
