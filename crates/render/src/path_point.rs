@@ -1,6 +1,7 @@
 //! A surface point as paths see it: how it scatters light, and which way goes on from it.
 
-use crate::bsdf::{Bsdf, BsdfSample};
+use crate::bsdf::{Bsdf, BsdfSample, Event};
+use crate::counters::RayCounters;
 use crate::horizon::Horizon;
 use crate::integrator::FirstHit;
 use crate::light::{Lookout, Target};
@@ -46,6 +47,18 @@ pub(crate) struct Onward {
     pub(crate) is_straight: bool,
     /// How it was drawn; the weight is what the radiance from there is multiplied by.
     pub(crate) sample: BsdfSample,
+}
+
+impl Onward {
+    /// Counts its ray.
+    #[inline]
+    pub(crate) fn count(&self, counters: &mut RayCounters) {
+        *match self.sample.event {
+            Event::Transmission => &mut counters.refraction,
+            _ if self.sample.is_delta() => &mut counters.reflection,
+            Event::Diffuse | Event::Glossy => &mut counters.scatter,
+        } += 1;
+    }
 }
 
 impl<'a> Covering<'a> {
@@ -217,11 +230,12 @@ impl<'a> PathPoint<'a> {
 
     /// A way through the surface.
     fn behind(&self, passing: &PassingRay, sample: BsdfSample, dir: Vec3) -> Onward {
-        let absorption = self.material.surface.absorption();
-        let enters = self.normals.enters && self.material.surface.refracts();
+        let surface = &self.material.surface;
+        let enters = self.normals.enters && surface.refracts();
+        let (absorption, bends) = (surface.absorption(), !surface.passes_straight());
         Onward {
             passing: passing.behind(self.seen.thing, &self.seen.surface, dir),
-            inside: Some(enters.then_some(Inside { thing: self.seen.thing, absorption })),
+            inside: Some(enters.then_some(Inside { thing: self.seen.thing, absorption, bends })),
             is_straight: false,
             sample,
         }

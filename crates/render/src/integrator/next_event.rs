@@ -48,8 +48,10 @@ pub(super) fn from_lights(
     let ray = point.shadow_ray(light.to_light, &light.target);
     let shown = answer * world.transmittance(&ray, from.time);
     match inside {
-        // A light inside the same glass.
-        Some(inside) if ray.range.max.is_finite() => shown * left_of(inside.absorption, ray.dir.length()),
+        // A light inside the same glass; where light passes its surface, shadow rays know of it.
+        Some(inside) if inside.bends && ray.range.max.is_finite() => {
+            shown * left_of(inside.absorption, ray.dir.length())
+        }
         _ => shown,
     }
 }

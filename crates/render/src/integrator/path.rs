@@ -175,7 +175,8 @@ impl Path {
         }
         let onward = point.sample(&way.passing, choices.y, draws.next_2d());
         let Some(onward) = onward else { return ControlFlow::Break(()) };
-        way.go_on(&onward, &point, &self.limits, counters);
+        onward.count(counters);
+        way.go_on(&onward, &point, &self.limits);
         way.roulette(&mut draws)
     }
 
@@ -225,13 +226,7 @@ impl Way {
     }
 
     /// Sends it on.
-    fn go_on(
-        &mut self,
-        onward: &Onward,
-        point: &PathPoint<'_>,
-        limits: &DepthLimits,
-        counters: &mut RayCounters,
-    ) {
+    fn go_on(&mut self, onward: &Onward, point: &PathPoint<'_>, limits: &DepthLimits) {
         let sample = &onward.sample;
         self.passing = onward.passing;
         self.inside = onward.inside.unwrap_or(self.inside);
@@ -243,11 +238,6 @@ impl Way {
             self.scattered = if sample.is_delta() { None } else { Some((point.lookout(), sample.pdf)) };
         }
         self.is_last |= self.depth.grow(sample.event, limits);
-        *match sample.event {
-            Event::Transmission => &mut counters.refraction,
-            _ if sample.is_delta() => &mut counters.reflection,
-            Event::Diffuse | Event::Glossy => &mut counters.scatter,
-        } += 1;
     }
 
     /// Ends it by chance if it carries little.

@@ -98,7 +98,7 @@ impl Walk<'_, '_> {
     fn radiance(&mut self, mut leg: Leg) -> Rgb {
         let world = self.world;
         let Some(seen) = world.seen_inside(&leg.passing, leg.inside, self.time, leg.from_camera) else {
-            return self.from_beyond(&leg);
+            return self.beyond(&leg);
         };
         let (surface, dir) = (&seen.surface, leg.passing.ray.dir);
         let (object, material) = match surface.owner {
@@ -113,6 +113,7 @@ impl Walk<'_, '_> {
         // Holes let the ray through by chance.
         let covering = Covering::new(world, surface, material);
         if leg.sampler.next_1d() >= covering.opacity() {
+            self.counters.refraction += 1;
             let passing = leg.passing.behind(seen.thing, surface, dir);
             return self.radiance(Leg { passing, sampler: leg.sampler.fork(0), ..leg });
         }
@@ -146,7 +147,7 @@ impl Walk<'_, '_> {
         if leg.depth == MOST || leg.sampler.next_1d() >= survives {
             return Rgb::ZERO;
         }
-        self.counters.scatter += 1;
+        onward.count(self.counters);
         let asked = if onward.sample.is_delta() { None } else { Some(point.lookout()) };
         let radiance = self.radiance(Leg {
             passing: onward.passing,
@@ -162,7 +163,7 @@ impl Walk<'_, '_> {
     }
 
     /// What comes from infinitely far.
-    fn from_beyond(&mut self, leg: &Leg) -> Rgb {
+    fn beyond(&mut self, leg: &Leg) -> Rgb {
         if leg.passed_only && self.transparent_background {
             self.is_through = true;
             return Rgb::ZERO;

@@ -187,9 +187,11 @@ impl Whitted {
                 passing: branch.passing.behind(seen.thing, &seen.surface, dir),
                 weight: branch.weight * weight,
                 depth: branch.depth + 1,
-                inside: point
-                    .enters
-                    .then_some(Inside { thing: seen.thing, absorption: point.phong.absorption }),
+                inside: point.enters.then_some(Inside {
+                    thing: seen.thing,
+                    absorption: point.phong.absorption,
+                    bends: true,
+                }),
                 from_camera: false,
                 sampler: branch.sampler.fork(GLASS_BRANCH),
                 ..*branch

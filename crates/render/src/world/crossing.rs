@@ -47,6 +47,8 @@ pub(crate) struct Inside {
     pub(crate) thing: Thing,
     /// Absorption per metre.
     pub(crate) absorption: Rgb,
+    /// Whether light that passes its surface is bent: no shadow ray leaves it then.
+    pub(crate) bends: bool,
 }
 
 impl PassingRay {

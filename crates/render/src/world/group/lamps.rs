@@ -52,7 +52,7 @@ impl<'s> PreparedGroup<'s> {
                 match &member.content {
                     Content::Group(group) => group.lamps_below(owner, links, visit),
                     Content::Body(_) => {
-                        visit(Lamp { owner, object: member.object, chain: Chain::new(links) })
+                        visit(Lamp { owner, object: member.object, chain: Chain::new(links) });
                     }
                 }
                 links.truncate(links.len() - 2);
