@@ -105,6 +105,11 @@ pub fn is_unit(v: DVec3) -> bool {
     (v.length_squared() - 1.0).abs() <= gamma_f64(16)
 }
 
+/// Whether two vectors are at right angles, up to the rounding with which they came from `f64`.
+pub fn is_square(a: Vec3, b: Vec3) -> bool {
+    a.dot(b).abs() <= gamma(8) * a.length() * b.length()
+}
+
 /// A matrix with the absolute value of every element.
 pub fn abs(m: DMat3) -> DMat3 {
     DMat3::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs())

@@ -3,7 +3,7 @@
 use glam::{Quat, Vec2, Vec3};
 use heliostat_scene::scene::Background;
 use heliostat_scene::{Image, Rgb};
-use std::f32::consts::{FRAC_1_PI, TAU};
+use std::f32::consts::{FRAC_1_PI, PI, TAU};
 
 /// The radiance from the unit direction `dir`.
 pub(crate) fn radiance(background: &Background, dir: Vec3) -> Rgb {
@@ -14,15 +14,25 @@ pub(crate) fn radiance(background: &Background, dir: Vec3) -> Rgb {
             horizon.lerp(*end, dir.y.abs())
         }
         Background::Image { image, intensity, rotation } => {
-            *intensity * bilinear(image, equirectangular(Quat::from_rotation_y(-rotation) * dir))
+            *intensity * bilinear(image, equirectangular(dir, *rotation))
         }
     }
 }
 
-/// Where a direction lies in an equirectangular image: the middle is `-z`, `+x` lies to the right of it, up is 0.
-fn equirectangular(dir: Vec3) -> Vec2 {
+/// Where a unit direction lies in an equirectangular image that is turned about y: the middle is `-z`, `+x` lies to the right of
+/// it, up is 0.
+pub(crate) fn equirectangular(dir: Vec3, rotation: f32) -> Vec2 {
+    let dir = Quat::from_rotation_y(-rotation) * dir;
     let around = dir.x.atan2(-dir.z);
     Vec2::new(0.5 + around / TAU, dir.y.clamp(-1.0, 1.0).acos() * FRAC_1_PI)
+}
+
+/// The inverse of [`equirectangular`], and the sine of the angle between the direction and straight up.
+pub(crate) fn direction(at: Vec2, rotation: f32) -> (Vec3, f32) {
+    let (sin_around, cos_around) = (TAU * (at.x - 0.5)).sin_cos();
+    let (sin, cos) = (PI * at.y).sin_cos();
+    let dir = Vec3::new(sin * sin_around, cos, -sin * cos_around);
+    (Quat::from_rotation_y(rotation) * dir, sin)
 }
 
 /// Linear between four pixels: wrapped in x, held at the poles.
@@ -44,7 +54,6 @@ fn bilinear(image: &Image, at: Vec2) -> Rgb {
 mod tests {
     use super::*;
     use heliostat_scene::image::{Encoding, Samples};
-    use std::f32::consts::PI;
     use std::sync::Arc;
 
     #[test]

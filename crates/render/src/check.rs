@@ -55,6 +55,8 @@ fn work(settings: &RenderSettings) -> Result<(), RenderError> {
         if ok { Ok(()) } else { Err(RenderError::Setting { name, value, range }) }
     };
     let (weight, distance) = (settings.min_weight, settings.ao_distance);
+    let clamp = settings.clamp_indirect.unwrap_or(f32::INFINITY);
+    setting("clamp_indirect", clamp, "above 0", clamp > 0.0)?;
     setting("min_weight", weight, "a number from 0 to 1", (0.0..=1.0).contains(&weight))?;
     setting("ao_distance", distance, "above 0", distance > 0.0)
 }

@@ -11,6 +11,8 @@ pub struct RayCounters {
     pub camera: u64,
     /// In mirror directions, total internal reflection included.
     pub reflection: u64,
+    /// Into directions into which surfaces scatter light.
+    pub scatter: u64,
     /// Through surfaces: refracted ones, and straight ones through cut-outs.
     pub refraction: u64,
     /// Towards light sources.
@@ -22,7 +24,7 @@ pub struct RayCounters {
 impl RayCounters {
     /// Rays of all kinds.
     pub fn total(&self) -> u64 {
-        self.camera + self.reflection + self.refraction + self.shadow + self.ao
+        self.camera + self.reflection + self.scatter + self.refraction + self.shadow + self.ao
     }
 }
 
@@ -30,6 +32,7 @@ impl AddAssign for RayCounters {
     fn add_assign(&mut self, other: Self) {
         self.camera += other.camera;
         self.reflection += other.reflection;
+        self.scatter += other.scatter;
         self.refraction += other.refraction;
         self.shadow += other.shadow;
         self.ao += other.ao;

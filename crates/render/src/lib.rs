@@ -64,18 +64,22 @@
 
 mod background;
 mod bits;
+mod bsdf;
 mod camera_ray;
 mod check;
 pub mod counters;
 pub mod error;
 pub mod film;
 pub mod filter;
+mod horizon;
 pub mod integrator;
 mod lanes;
 mod layers;
 mod light;
 mod material_eval;
 mod meta;
+mod normals;
+mod path_point;
 mod phong;
 mod plan;
 mod post_dof;

@@ -15,7 +15,7 @@ use crate::camera_ray::CameraRays;
 use crate::film::Film;
 use glam::{DAffine3, DMat4, DVec3, DVec4};
 use heliostat_scene::frame::Meta;
-use heliostat_scene::settings::{Filter, IntegratorKind};
+use heliostat_scene::settings::{DepthLimits, Filter, IntegratorKind};
 use heliostat_scene::{Camera, RenderSettings};
 use std::collections::BTreeMap;
 
@@ -37,6 +37,9 @@ pub(crate) fn meta(
     // All 64 bits of the seed, which no number type of an image file holds.
     say("heliostat/seed", text(&settings.seed.to_string()));
     say("heliostat/integrator", text(integrator_name(settings.integrator)));
+    if settings.integrator.traces_paths() {
+        say_biases(settings, &mut say);
+    }
     say("heliostat/filter", text(filter_name(settings.filter)));
     say("heliostat/filterRadius", Meta::Float(settings.filter_radius));
     say("heliostat/camera", text(&camera.name));
@@ -52,6 +55,17 @@ pub(crate) fn meta(
         say("worldToNDC", rows(to_ndc * to_camera));
     }
     meta
+}
+
+/// What a path may lack: where limits are set, its light is not all there is.
+fn say_biases(settings: &RenderSettings, say: &mut impl FnMut(&str, Meta) -> Option<Meta>) {
+    let DepthLimits { total, diffuse, glossy, transmission } = settings.depth_limits;
+    if settings.depth_limits != DepthLimits::default() {
+        say("heliostat/depthLimits", text(&format!("{total},{diffuse},{glossy},{transmission}")));
+    }
+    if let Some(clamp) = settings.clamp_indirect {
+        say("heliostat/clampIndirect", Meta::Float(clamp));
+    }
 }
 
 /// From world space to a camera that looks down +z, for columns.
@@ -95,6 +109,9 @@ fn integrator_name(kind: IntegratorKind) -> &'static str {
         IntegratorKind::Uv => "uv",
         IntegratorKind::AmbientOcclusion => "ambient_occlusion",
         IntegratorKind::Cost => "cost",
+        IntegratorKind::Direct => "direct",
+        IntegratorKind::PathSimple => "path_simple",
+        IntegratorKind::Path => "path",
     }
 }
 

@@ -1,5 +1,6 @@
 //! A hit with all that shading asks of it: its normals turned to the viewer, and its material evaluated.
 
+use crate::horizon::Horizon;
 use crate::integrator::FirstHit;
 use crate::light::direct::LitPoint;
 use crate::material_eval::{MaterialEval, PhongPoint};
@@ -7,7 +8,6 @@ use crate::phong::{fresnel, reflect, refract};
 use crate::texture_eval::TexturePoint;
 use crate::world::{SurfaceHit, World};
 use glam::Vec3;
-use heliostat_geometry::SurfacePoint;
 use heliostat_scene::material::FresnelMode;
 use heliostat_scene::{MaterialId, Rgb};
 
@@ -95,24 +95,14 @@ impl<'a> ShadingPoint<'a> {
 
     /// The point for the light that falls on the viewer's side.
     pub(crate) fn lit(&self, world: &World<'_>) -> LitPoint<'_> {
-        let at = self.surface.hit.at;
-        let lift = world.lift(self.surface, !self.enters, self.time);
-        // A lift within the rounding of the point is none.
-        let lifted = lift.dot(self.ng) > self.ng.abs().dot(at.p_err);
-        let start = if lifted {
-            SurfacePoint { p: at.p + lift, ng: self.smooth, ..at }
-        } else {
-            SurfacePoint { ng: self.ng, ..at }
-        };
+        let horizon = Horizon::new(world, self.surface, [self.ng, self.smooth], !self.enters, self.time);
         LitPoint {
-            start,
-            departure: start.departure(),
-            lifted,
-            smooth: self.smooth,
+            horizon,
+            departure: horizon.start.departure(),
             ns: self.ns,
             view: self.view,
             phong: &self.phong,
-            casters: world.casters(&start, self.surface.object()),
+            casters: world.casters(&horizon.start, self.surface.object()),
             time: self.time,
         }
     }
@@ -149,7 +139,7 @@ impl<'a> ShadingPoint<'a> {
 }
 
 /// The normal nearest to `n` that does not turn its back on the viewer.
-fn towards(n: Vec3, view: Vec3) -> Vec3 {
+pub(crate) fn towards(n: Vec3, view: Vec3) -> Vec3 {
     let cos = n.dot(view);
     if cos >= 0.0 { n } else { (n - cos * view).try_normalize().unwrap_or(view) }
 }

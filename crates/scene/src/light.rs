@@ -22,7 +22,8 @@ pub enum Falloff {
 )]
 #[derive(Clone, Debug, PartialEq)]
 pub enum LightKind {
-    /// Ia: the same from everywhere, without shadow.
+    /// Ia: the same from everywhere, without shadow. Paths take it for the irradiance that an unseen sky, the same from
+    /// everywhere, throws on an open surface, in W/m²: what stands in its way throws shadows.
     Ambient,
     /// From a point, equal in all directions. Intensity in W/sr.
     Point {
@@ -31,7 +32,8 @@ pub enum LightKind {
         /// Weakening.
         falloff: Falloff,
     },
-    /// From infinitely far. Intensity is the irradiance on a surface that faces it, in W/m².
+    /// From infinitely far. Intensity is the irradiance on a surface that faces it, in W/m². The camera does not see it;
+    /// surfaces mirror one that has an angle, when paths are traced.
     Directional {
         /// Unit direction in which the light travels.
         direction: Vec3,

@@ -4,8 +4,9 @@ use crate::camera::Camera;
 use crate::color::Rgb;
 use crate::group::Group;
 use crate::light::Light;
-use crate::material::Material;
+use crate::material::{Material, Surface};
 use crate::object::Object;
+use crate::settings::IntegratorKind;
 use crate::texture::Texture;
 use heliostat_geometry::TriMesh;
 use std::sync::Arc;
@@ -60,4 +61,12 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     /// What is seen behind everything.
     pub background: Background,
+}
+
+impl Scene {
+    /// The integrator for a scene that names none: paths where a material is physically based, else the report's recursion.
+    pub fn natural_integrator(&self) -> IntegratorKind {
+        let is_physical = |material: &Material| matches!(material.surface, Surface::Standard(_));
+        if self.materials.iter().any(is_physical) { IntegratorKind::Path } else { IntegratorKind::Whitted }
+    }
 }

@@ -33,6 +33,44 @@ pub enum IntegratorKind {
     AmbientOcclusion,
     /// Steps of the index as a heat map.
     Cost,
+    /// Light that comes from the lights to the first surface, and nothing that surfaces hand on.
+    Direct,
+    /// All ways of light, found by the scattering of surfaces alone: slow, short, and what [`Self::Path`] is held against.
+    PathSimple,
+    /// All ways of light, found by lights and surfaces together.
+    Path,
+}
+
+impl IntegratorKind {
+    /// Whether it follows light as physics has it, so that surfaces and lights mean what their units say.
+    pub fn traces_paths(self) -> bool {
+        matches!(self, Self::Direct | Self::PathSimple | Self::Path)
+    }
+}
+
+/// How often light may be handed on before it reaches the camera, by what surfaces do to it. 0 leaves light that comes
+/// straight from a light to a surface. Every limit is a bias: light beyond it is missing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DepthLimits {
+    /// All together.
+    pub total: u32,
+    /// Scattered by matte layers.
+    pub diffuse: u32,
+    /// Reflected by smooth or rough layers.
+    pub glossy: u32,
+    /// Refracted, or let through by thin walls.
+    pub transmission: u32,
+}
+
+impl DepthLimits {
+    /// So deep that no light is missed that eye or image file could tell: paths end by chance long before.
+    pub const MOST: u32 = 1024;
+}
+
+impl Default for DepthLimits {
+    fn default() -> Self {
+        Self { total: Self::MOST, diffuse: Self::MOST, glossy: Self::MOST, transmission: Self::MOST }
+    }
 }
 
 /// A rectangle of pixels: `x0 <= x < x1`, `y0 <= y < y1`, `y` from the top.
@@ -115,8 +153,13 @@ pub struct RenderSettings {
     pub max_depth: u32,
     /// A branch whose product of weights falls below this is cut.
     pub min_weight: f32,
-    /// Whether light passes through transparent things, coloured, on its straight way to a surface.
+    /// Whether light passes through transparent things, coloured, on its straight way to a surface. Paths never let it pass
+    /// straight through what refracts, and always through thin walls.
     pub transparent_shadows: bool,
+    /// How long paths may be.
+    pub depth_limits: DepthLimits,
+    /// The most that one sample of indirect light may add to a channel of a pixel, above 0: less noise, and less light.
+    pub clamp_indirect: Option<f32>,
     /// Rays per point of the `ambient_occlusion` integrator.
     pub ao_samples: u32,
     /// Length of those rays in metres; infinite sees the whole scene.
@@ -145,6 +188,8 @@ impl Default for RenderSettings {
             max_depth: 12,
             min_weight: 1.0 / 512.0,
             transparent_shadows: false,
+            depth_limits: DepthLimits::default(),
+            clamp_indirect: None,
             ao_samples: 16,
             ao_distance: f32::INFINITY,
             layers: Layers::default(),

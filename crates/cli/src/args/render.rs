@@ -96,7 +96,7 @@ pub(crate) struct PictureArgs {
     #[arg(short, long, value_name = "LIST", value_parser = value::frames, allow_hyphen_values = true)]
     pub(crate) frames: Option<FrameList>,
 
-    /// How light is found along a ray
+    /// How light is found along a ray [default: the scene's]
     #[arg(long, value_enum, value_name = "NAME")]
     pub(crate) integrator: Option<Integrator>,
 
@@ -165,6 +165,13 @@ pub(crate) enum Integrator {
     AmbientOcclusion,
     /// Work in the spatial index, as a heat map
     Cost,
+    /// Light that comes straight from the lights, physically based
+    Direct,
+    /// All light, found by the scattering of surfaces alone: slow, to hold `path` against
+    #[value(name = "path_simple", alias = "path-simple")]
+    PathSimple,
+    /// All light, physically based
+    Path,
 }
 
 /// Types of colour channels in EXR.

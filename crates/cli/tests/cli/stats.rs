@@ -20,7 +20,7 @@ fn stats_has_its_keys_and_its_sums_are_right() {
     let rays = &stats["rays"];
     let ray = |kind: &str| rays[kind].as_u64().unwrap_or_else(|| panic!("{kind}: {stats:#}"));
     assert_eq!(ray("camera"), 2 * 40 * 30 * 2, "frames x width x height x samples");
-    let kinds = ["camera", "reflection", "refraction", "shadow", "ambient_occlusion"];
+    let kinds = ["camera", "reflection", "scatter", "refraction", "shadow", "ambient_occlusion"];
     assert_eq!(kinds.iter().map(|kind| ray(kind)).sum::<u64>(), ray("total"));
     assert!(ray("refraction") > 0 && ray("shadow") > 0);
     assert!(stats["rays_per_second"].as_f64().is_some_and(|r| r > 0.0));

@@ -72,7 +72,7 @@ pub(crate) fn build(
     let stage = cast.stage(file)?;
     let targets = cast.targets(&stage.things);
     builder.cameras(&stage, &targets)?;
-    let settings = file.render.settings(builder.chosen_camera()?)?;
+    let settings = file.render.settings(builder.chosen_camera()?, builder.scene.natural_integrator())?;
     let motions = builder.motions(&cast, &stage, file_at, &settings)?;
     builder.move_cameras(motions.cameras);
     let (objects, rest) = motions.things.split_at(file.object.len());

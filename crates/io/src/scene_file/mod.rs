@@ -26,7 +26,7 @@
 //!
 //! | section | module | what |
 //! |---|---|---|
-//! | `[render]` | [`render`] | size, samples, integrator, layers |
+//! | `[render]` | [`render`], [`depth_limits`] | size, samples, integrator, layers |
 //! | `[output]` | [`output`] | view transform, bits |
 //! | `[time]` | [`time`] | frames, shutter |
 //! | `[camera]`, `[[camera]]` | [`camera`], [`focus`] | where from |
@@ -46,6 +46,7 @@ pub mod camera;
 mod cameras;
 mod choice;
 pub mod copies;
+pub mod depth_limits;
 mod edit;
 pub mod environment;
 pub mod focus;

@@ -7,13 +7,16 @@
 //! height = 540
 //! # region = [0, 0, 480, 270]    # left, top, right, bottom: only these pixels
 //! samples = 16                   # camera rays per pixel
-//! integrator = "whitted"         # "normals", "depth", "uv", "ambient_occlusion", "cost"
+//! integrator = "whitted"         # "path", "path_simple", "direct", "normals", "depth", "uv", "ambient_occlusion", "cost";
+//!                                # "path" where a material is physically based
 //! filter = "blackman_harris"     # "box", "tent", "gaussian", "mitchell", "lanczos"
 //! filter_radius = 1.5            # pixels; the default depends on the filter
 //! seed = 0
 //! max_depth = 12                 # reflections and refractions in a row
 //! min_weight = 0.001953125       # a branch of less weight is cut
 //! transparent_shadows = false    # whether light passes, coloured and straight, through transparent things
+//! # depth_limits = { total = 12 } # of the integrator "path"; see the module `depth_limits`
+//! # clamp_indirect = 10          # the most that a sample of its indirect light adds; all of it if left out
 //! ao_samples = 16                # rays per point of the integrator "ambient_occlusion"
 //! # ao_distance = 1              # their length in metres; without end if left out
 //! layers = []                    # "depth", "normal", "albedo", "position", "uv", "object_id", "material_id"
@@ -21,6 +24,7 @@
 //! # camera = "main"              # the first camera if left out
 //! ```
 
+use super::depth_limits::DepthLimitsTable;
 use super::number::{Count, NonNegative, Positive, Whole};
 use crate::document::{Fault, Placed};
 use heliostat_scene::RenderSettings;
@@ -46,7 +50,7 @@ pub struct RenderTable {
     pub region: Option<Placed<[Whole<0, 65_535>; 4]>>,
     /// Camera rays per pixel; 16 if left out.
     pub samples: Option<Count>,
-    /// How radiance is found; `whitted` if left out.
+    /// How radiance is found; `path` where a material is physically based, else `whitted`, if left out.
     pub integrator: Option<IntegratorName>,
     /// Reconstruction filter; `blackman_harris` if left out.
     pub filter: Option<FilterName>,
@@ -61,6 +65,11 @@ pub struct RenderTable {
     pub min_weight: Option<NonNegative>,
     /// Whether light passes straight and coloured through transparent things; `false` if left out.
     pub transparent_shadows: Option<bool>,
+    /// How long the paths of `path` may be; without end if left out.
+    pub depth_limits: Option<DepthLimitsTable>,
+    /// The most that one sample of indirect light adds to a channel under `path`: less noise, and less light. All of it if left
+    /// out.
+    pub clamp_indirect: Option<Positive>,
     /// Rays per point of the integrator `ambient_occlusion`; 16 if left out.
     pub ao_samples: Option<Count>,
     /// Length of those rays in metres; without end if left out.
@@ -89,6 +98,12 @@ pub enum IntegratorName {
     AmbientOcclusion,
     /// Steps of the index as a heat map.
     Cost,
+    /// Light that comes straight from the lights, physically based.
+    Direct,
+    /// All light, found by the scattering of surfaces alone: slow, to hold `path` against.
+    PathSimple,
+    /// All light, physically based.
+    Path,
 }
 
 /// Reconstruction filters.
@@ -140,13 +155,16 @@ const FILTERS: [(FilterName, Filter); 6] = [
 ];
 
 /// The names of the integrators and their counterparts in the scene.
-const INTEGRATORS: [(IntegratorName, IntegratorKind); 6] = [
+const INTEGRATORS: [(IntegratorName, IntegratorKind); 9] = [
     (IntegratorName::Whitted, IntegratorKind::Whitted),
     (IntegratorName::Normals, IntegratorKind::Normals),
     (IntegratorName::Depth, IntegratorKind::Depth),
     (IntegratorName::Uv, IntegratorKind::Uv),
     (IntegratorName::AmbientOcclusion, IntegratorKind::AmbientOcclusion),
     (IntegratorName::Cost, IntegratorKind::Cost),
+    (IntegratorName::Direct, IntegratorKind::Direct),
+    (IntegratorName::PathSimple, IntegratorKind::PathSimple),
+    (IntegratorName::Path, IntegratorKind::Path),
 ];
 
 /// The other half of the pair that holds `from`.
@@ -170,8 +188,8 @@ fn default_radius(filter: Filter) -> f32 {
 }
 
 impl RenderTable {
-    /// The settings, with `camera` as the index of the camera.
-    pub(crate) fn settings(&self, camera: usize) -> Result<RenderSettings, Fault> {
+    /// The settings, with `camera` as the index of the camera and `natural` as the integrator if none is named.
+    pub(crate) fn settings(&self, camera: usize, natural: IntegratorKind) -> Result<RenderSettings, Fault> {
         let normal = RenderSettings::default();
         let (width, height) = self.size(&normal)?;
         let filter = self.filter.and_then(|name| counterpart(&FILTERS, name)).unwrap_or(normal.filter);
@@ -181,13 +199,15 @@ impl RenderTable {
             height,
             region: self.region(width, height)?,
             samples: self.samples.map_or(normal.samples, Count::u32),
-            integrator: integrator.unwrap_or(normal.integrator),
+            integrator: integrator.unwrap_or(natural),
             filter,
             filter_radius: self.filter_radius.map_or(default_radius(filter), Positive::f32),
             seed: self.seed.unwrap_or(normal.seed),
             max_depth: self.max_depth.map_or(normal.max_depth, Whole::u32),
             min_weight: self.min_weight.map_or(normal.min_weight, NonNegative::f32),
             transparent_shadows: self.transparent_shadows.unwrap_or(normal.transparent_shadows),
+            depth_limits: self.depth_limits.as_ref().map_or(normal.depth_limits, DepthLimitsTable::limits),
+            clamp_indirect: self.clamp_indirect.map(Positive::f32),
             ao_samples: self.ao_samples.map_or(normal.ao_samples, Count::u32),
             ao_distance: self.ao_distance.map_or(normal.ao_distance, Positive::f32),
             layers: layers(self.layers.as_deref().unwrap_or_default()),
@@ -240,6 +260,8 @@ impl RenderTable {
             max_depth: Whole::new(settings.max_depth.into()),
             min_weight: NonNegative::new(settings.min_weight.into()),
             transparent_shadows: Some(settings.transparent_shadows),
+            depth_limits: Some(DepthLimitsTable::of(&settings.depth_limits)),
+            clamp_indirect: settings.clamp_indirect.and_then(|most| Positive::new(most.into())),
             ao_samples: Whole::new(settings.ao_samples.into()),
             ao_distance: Positive::new(settings.ao_distance.into()),
             layers: Some(layer_names(settings.layers)),

@@ -7,6 +7,7 @@ use crate::model::{FITTED_CAMERA, has_glass, scene_of};
 use crate::obj::ObjModel;
 use crate::scene_file::{Assets, Built, SceneFile, Trouble};
 use heliostat_scene::RenderSettings;
+use heliostat_scene::settings::IntegratorKind;
 use std::path::Path;
 
 /// Sections that flags can set beside a model.
@@ -43,7 +44,7 @@ impl LoneModel {
     /// # Errors
     /// When a flag names a camera that is not there, or settings contradict each other.
     pub(super) fn build(&self, file: &SceneFile) -> Result<Built, Fault> {
-        let settings = file.render.settings(0)?;
+        let settings = file.render.settings(0, IntegratorKind::Whitted)?;
         let aspect = settings.width as f32 / settings.height as f32;
         let scene = scene_of(&self.model, &self.name, aspect);
         let names = || scene.cameras.iter().map(|camera| camera.name.as_str());
@@ -56,7 +57,10 @@ impl LoneModel {
         // Nobody sets up a lone model by hand: its glass and water let the light through.
         let transparent_shadows = file.render.transparent_shadows.unwrap_or_else(|| has_glass(&scene));
         let warnings = self.model.warnings.clone();
-        Ok(Built { settings: RenderSettings { camera, transparent_shadows, ..settings }, scene, warnings })
+        let integrator =
+            if file.render.integrator.is_some() { settings.integrator } else { scene.natural_integrator() };
+        let settings = RenderSettings { camera, transparent_shadows, integrator, ..settings };
+        Ok(Built { settings, scene, warnings })
     }
 
     /// The names of the cameras.

@@ -42,6 +42,7 @@ fn template(table: &str) -> &'static str {
         }
         "CameraTable" => "object = [{ name = 'o', plane = {} }]\n[camera]\n@",
         "FocusTable" => "object = [{ sphere = { radius = 2 }, translate = [0, 0, -9] }]\n[camera.focus]\n@",
+        "DepthLimitsTable" => "camera = {}\n[render.depth_limits]\n@",
         "EnvironmentTable" => "camera = {}\n[environment]\n@",
         "GradientTable" => "camera = {}\n[environment.gradient]\n@",
         "TextureTable" => "camera = {}\n[[texture]]\n@",

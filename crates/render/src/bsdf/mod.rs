@@ -4,9 +4,17 @@
 //! `wo` goes to the viewer, so `wo.z > 0`; `wi` goes to where the light comes from, `wi.z < 0` for light from behind the surface.
 //! What is called the value is `f(wo, wi) |wi.z|`; densities are by solid angle. Mirrors and clear glass have no value: they
 //! answer to samples alone.
+//!
+//! Radiance is basic radiance, divided by the square of the index of refraction where it is: refraction leaves that as it is,
+//! and in free space it is radiance.
 
-use glam::Vec3;
+mod phong;
+
+use crate::material_eval::MaterialEval;
+use glam::{Vec2, Vec3};
 use heliostat_scene::Rgb;
+use heliostat_scene::material::Surface;
+use phong::PhongBsdf;
 
 /// What a sampled direction does at the surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,5 +44,65 @@ impl BsdfSample {
     /// Whether no other way than sampling finds the direction.
     pub(crate) fn is_delta(&self) -> bool {
         self.pdf == f32::INFINITY
+    }
+}
+
+/// The closed list of surfaces at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Bsdf {
+    /// The report's surface.
+    Phong(PhongBsdf),
+}
+
+impl Bsdf {
+    /// A surface where a ray meets it, from outside if it `enters`. A vertex colour tints what is matte.
+    #[inline]
+    pub(crate) fn new(
+        surface: &Surface,
+        eval: &MaterialEval<'_>,
+        vertex_color: Option<Rgb>,
+        enters: bool,
+    ) -> Self {
+        Self::Phong(PhongBsdf::new(&eval.phong(&surface.phong(), vertex_color), enters))
+    }
+
+    /// Whether it scatters light into more than a few directions: only then lights are worth asking.
+    #[inline]
+    pub(crate) fn scatters(&self) -> bool {
+        match self {
+            Self::Phong(phong) => phong.scatters(),
+        }
+    }
+
+    /// The value, and the density with which [`Self::sample`] draws `wi`; mirror and clear glass left out.
+    #[inline]
+    pub(crate) fn eval(&self, wo: Vec3, wi: Vec3) -> (Rgb, f32) {
+        match self {
+            Self::Phong(phong) => phong.eval(wo, wi),
+        }
+    }
+
+    /// A direction by random numbers in `[0, 1)`: `layer` chooses among layers, `u` the direction. `None` where the light is
+    /// lost.
+    #[inline]
+    pub(crate) fn sample(&self, wo: Vec3, layer: f32, u: Vec2) -> Option<BsdfSample> {
+        match self {
+            Self::Phong(phong) => phong.sample(wo, layer, u),
+        }
+    }
+
+    /// The share of the light that goes through without a bend, per channel in `[0, 1]`; 0 where it is bent or scattered.
+    #[inline]
+    pub(crate) fn straight(&self, wo: Vec3) -> Rgb {
+        match self {
+            Self::Phong(phong) => phong.straight(wo),
+        }
+    }
+
+    /// The share of the light that it sends on, about; per channel in `[0, 1]`.
+    pub(crate) fn albedo(&self) -> Rgb {
+        match self {
+            Self::Phong(phong) => phong.albedo(),
+        }
     }
 }

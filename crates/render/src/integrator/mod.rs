@@ -6,15 +6,22 @@
 mod ambient_occlusion;
 mod cost;
 mod depth;
+mod direct;
 mod first;
+mod next_event;
 mod normals;
+mod path;
+mod path_simple;
 mod uv;
 mod whitted;
 
 pub use ambient_occlusion::AmbientOcclusion;
 pub use cost::Cost;
 pub use depth::Depth;
+pub use direct::Direct;
 pub use normals::Normals;
+pub use path::Path;
+pub use path_simple::PathSimple;
 pub use uv::Uv;
 pub use whitted::Whitted;
 
@@ -97,5 +104,8 @@ pub fn create(settings: &RenderSettings) -> Box<dyn Integrator> {
         IntegratorKind::Uv => Box::new(Uv),
         IntegratorKind::AmbientOcclusion => Box::new(AmbientOcclusion::new(settings)),
         IntegratorKind::Cost => Box::new(Cost),
+        IntegratorKind::Direct => Box::new(Direct::new(settings)),
+        IntegratorKind::PathSimple => Box::new(PathSimple::new(settings)),
+        IntegratorKind::Path => Box::new(Path::new(settings)),
     }
 }

@@ -9,6 +9,7 @@
 //! Image Synthesis", IEEE CG&A 1983 (cutting by weight).
 
 use super::first::on_light;
+use super::next_event::left_of;
 use super::{CameraRay, FirstHit, Integrator, Sample};
 use crate::background;
 use crate::counters::RayCounters;
@@ -187,10 +188,11 @@ impl Whitted {
                 passing: branch.passing.behind(surface, dir),
                 weight: branch.weight * weight,
                 depth: branch.depth + 1,
-                inside: surface
-                    .thing()
-                    .filter(|_| point.enters)
-                    .map(|thing| Inside { thing, absorption: point.phong.absorption }),
+                inside: surface.thing().filter(|_| point.enters).map(|thing| Inside {
+                    thing,
+                    absorption: point.phong.absorption,
+                    bends: true,
+                }),
                 from_camera: false,
                 sampler: branch.sampler.fork(GLASS_BRANCH),
                 ..*branch
@@ -216,12 +218,4 @@ impl Whitted {
             found.radiance += branch.weight * background::radiance(&world.scene().background, dir);
         }
     }
-}
-
-/// The share of light that is left after a way through something with an absorption per metre.
-///
-/// # Source
-/// The law of Bouguer, Lambert and Beer.
-fn left_of(absorption: Rgb, way: f32) -> Rgb {
-    if absorption == Rgb::ZERO { Rgb::ONE } else { (-way * absorption).exp() }
 }

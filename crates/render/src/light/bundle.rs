@@ -46,7 +46,7 @@ impl Bundle {
         if shines {
             bundle.add_highlights(point);
         }
-        if point.fades() {
+        if point.horizon.fades() {
             bundle.fade(point);
         }
         bundle
@@ -66,7 +66,8 @@ impl Bundle {
     #[cold]
     fn fade(&mut self, point: &LitPoint<'_>) {
         for i in lanes_of(self.lit) {
-            let share = point.facing((self.targets.get(i) - point.start.p).normalize_or_zero());
+            let share =
+                point.horizon.facing((self.targets.get(i) - point.horizon.start.p).normalize_or_zero());
             self.diffuse[i] *= share;
             self.specular[i] *= share;
         }
@@ -107,14 +108,14 @@ impl NullaryFnOnce for Draw<'_> {
         let (mut u, mut v) = ([0.0; LANES], [0.0; LANES]);
         let count = samples.next_lanes(&mut u, &mut v) as u32;
         let targets = lamp.flat.points(&u, &v);
-        let start = point.start.p;
+        let start = point.horizon.start.p;
         let mut to_light = Vec3Lanes::splat(Vec3::ZERO);
         (0..LANES).for_each(|i| to_light.set(i, targets.get(i) - start));
         let arriving = lamp.shares(&mut to_light);
 
-        let (ns, smooth, view) = (point.ns, point.smooth, point.view);
+        let (ns, smooth, view) = (point.ns, point.horizon.smooth, point.view);
         // Light from behind the surface is not seen, whatever the shading normal says.
-        let facet = if point.lifted { smooth } else { point.start.ng };
+        let facet = if point.horizon.lifted { smooth } else { point.horizon.start.ng };
         let view_cos = 2.0 * ns.dot(view);
         let answers = if point.phong.diffuse == Rgb::ZERO { 0.0 } else { 1.0 };
         let (mut share, mut diffuse, mut specular) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);

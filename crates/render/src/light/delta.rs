@@ -1,12 +1,13 @@
 //! Lights from one point or one direction: point, spot and directional light.
 
-use super::{LightSample, Target};
+use super::{LightSample, Target, Use};
 use glam::{Vec2, Vec3};
-use heliostat_geometry::warp::square_to_cone;
+use heliostat_geometry::warp::{cone_pdf, square_to_cone};
 use heliostat_geometry::{Aabb, OrthonormalFrame};
 use heliostat_scene::Rgb;
+use heliostat_scene::color::luminance;
 use heliostat_scene::light::Falloff;
-use std::f32::consts::{FRAC_PI_4, PI};
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
 /// A point light, with a cone if it is a spot.
 #[derive(Debug)]
@@ -36,6 +37,19 @@ impl PointLight {
         Self { cone: Some(Cone { axis, cos_inner, cos_outer }), ..self }
     }
 
+    /// About the power in W; of a light without falloff, that of one that does the same all over a scene of so large a radius.
+    pub(super) fn power(&self, scene_radius: f32) -> f32 {
+        let solid_angle = self
+            .cone
+            .as_ref()
+            .map_or(2.0 * TAU, |cone| TAU * (1.0 - 0.5 * (cone.cos_inner + cone.cos_outer)));
+        let reach = match self.falloff {
+            Falloff::InverseSquare => solid_angle,
+            Falloff::None => PI * scene_radius * scene_radius,
+        };
+        luminance(self.intensity) * reach
+    }
+
     #[inline]
     pub(super) fn sample(&self, p: Vec3) -> Option<LightSample> {
         let to_light = self.position - p;
@@ -55,6 +69,7 @@ impl PointLight {
         Some(LightSample {
             to_light,
             arriving: weakened * self.intensity,
+            pdf: f32::INFINITY,
             target: Target::Point(self.position),
         })
     }
@@ -83,17 +98,43 @@ pub(super) struct DirectionalLight {
     frame: OrthonormalFrame,
     /// Half of the angle that the source covers.
     half_angle: f32,
+    /// One over its solid angle; infinite for a single direction.
+    pdf: f32,
 }
 
 impl DirectionalLight {
     /// `direction` is the way of the light; `angle` what the source covers from edge to edge.
-    pub(super) fn new(intensity: Rgb, direction: Vec3, angle: f32) -> Self {
-        Self { intensity, frame: OrthonormalFrame::around(-direction), half_angle: (0.5 * angle).min(PI) }
+    pub(super) fn new(intensity: Rgb, direction: Vec3, angle: f32, used: Use) -> Self {
+        let half_angle = (0.5 * angle).min(PI);
+        // What arrives is the mean over the source of radiance times cosine, and all of it to Whitted.
+        let share = match used {
+            Use::Recursion => 1.0,
+            Use::Paths => 2.0 / (1.0 + half_angle.min(FRAC_PI_2).cos()),
+        };
+        Self {
+            intensity: share * intensity,
+            frame: OrthonormalFrame::around(-direction),
+            half_angle,
+            pdf: if half_angle > 0.0 { cone_pdf(half_angle) } else { f32::INFINITY },
+        }
+    }
+
+    /// The radiance from a unit direction, and the density with which it is drawn; `None` beside the source.
+    #[inline]
+    pub(super) fn seen(&self, dir: Vec3) -> Option<(Rgb, f32)> {
+        // Lengths of chords, which keep their digits where cosines are all 1.
+        let is_inside = dir.distance_squared(self.frame.z) <= 4.0 * (0.5 * self.half_angle).sin().powi(2);
+        (self.is_wide() && is_inside).then_some((self.pdf * self.intensity, self.pdf))
     }
 
     /// Whether it covers more than a point of the sky.
     pub(super) fn is_wide(&self) -> bool {
         self.half_angle > 0.0
+    }
+
+    /// About the power in W that arrives in a scene of so large a radius.
+    pub(super) fn power(&self, scene_radius: f32) -> f32 {
+        luminance(self.intensity) * PI * scene_radius * scene_radius
     }
 
     /// A box that holds the whole source as seen from `p`, behind everything in the box `scene`.
@@ -115,6 +156,6 @@ impl DirectionalLight {
         } else {
             self.frame.z
         };
-        LightSample { to_light, arriving: self.intensity, target: Target::Sky }
+        LightSample { to_light, arriving: self.intensity, pdf: self.pdf, target: Target::Sky }
     }
 }

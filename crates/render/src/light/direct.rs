@@ -4,25 +4,22 @@ use super::area::FlatLamp;
 use super::bundle::Bundle;
 use super::{PreparedLight, Target};
 use crate::counters::RayCounters;
+use crate::horizon::Horizon;
 use crate::material_eval::PhongPoint;
 use crate::phong::{is_dark, reflect};
 use crate::sampler::{Points, Sampler};
 use crate::world::{Candidates, Hull, ShadowRays, World};
 use glam::{Vec2, Vec3};
-use heliostat_geometry::{Departure, SurfacePoint};
+use heliostat_geometry::Departure;
 use heliostat_scene::Rgb;
 
 /// A point that is lit, seen from one side.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LitPoint<'a> {
-    /// The point; its normal is turned to the viewer.
-    pub(crate) start: SurfacePoint,
+    /// The point and what it can see.
+    pub(crate) horizon: Horizon,
     /// Where shadow rays start.
     pub(crate) departure: Departure,
-    /// The smooth normal on the viewer's side, without relief: light from behind it is not seen.
-    pub(crate) smooth: Vec3,
-    /// Whether `start` was lifted off the facet onto the smooth surface that the facets stand for.
-    pub(crate) lifted: bool,
     /// Shading normal on the viewer's side.
     pub(crate) ns: Vec3,
     /// Unit direction to the viewer.
@@ -68,14 +65,14 @@ fn from_samples(
     counters: &mut RayCounters,
 ) -> Rgb {
     // Ask once for all samples what they have in common.
-    let hull = light.hull(point.start.p, world.bounds());
+    let hull = light.hull(point.horizon.start.p, world.bounds());
     let shines = point.phong.specular != Rgb::ZERO && hull.as_ref().is_none_or(|hull| point.may_mirror(hull));
     if point.phong.diffuse == Rgb::ZERO && !shines {
         return Rgb::ZERO;
     }
     let blockers = match &hull {
-        Some(hull) if hull.is_behind(point.start.p, point.smooth) => return Rgb::ZERO,
-        Some(hull) => world.blockers(&point.start, point.casters, hull),
+        Some(hull) if hull.is_behind(point.horizon.start.p, point.horizon.smooth) => return Rgb::ZERO,
+        Some(hull) => world.blockers(&point.horizon.start, point.casters, hull),
         None => point.casters,
     };
     let sum: Rgb = match light.flat_lamp() {
@@ -121,9 +118,9 @@ fn from_sample(
     blockers: Candidates,
     counters: &mut RayCounters,
 ) -> Rgb {
-    let Some(sample) = light.sample(point.start.p, u, point.time) else { return Rgb::ZERO };
+    let Some(sample) = light.sample(point.horizon.start.p, u, point.time) else { return Rgb::ZERO };
 
-    let share = point.facing(sample.to_light);
+    let share = point.horizon.facing(sample.to_light);
     if share <= 0.0 {
         return Rgb::ZERO;
     }
@@ -140,7 +137,7 @@ fn from_sample(
     let ray = match sample.target {
         Target::Sky => point.departure.spawn(sample.to_light),
         Target::Point(p) => point.departure.spawn_to(p),
-        Target::Surface(at) => point.start.spawn_to_surface(&at),
+        Target::Surface(at) => point.horizon.start.spawn_to_surface(&at),
     };
     answer * world.transmittance_past(&ray, point.time, blockers)
 }
@@ -149,29 +146,6 @@ impl LitPoint<'_> {
     /// Whether any highlight of a light in that hull is seen.
     fn may_mirror(&self, light: &Hull) -> bool {
         let mirror_dir = reflect(-self.view, self.ns);
-        !is_dark(light.nearest_cosine(self.start.p, mirror_dir), self.phong.shininess)
-    }
-
-    /// Whether light fades out towards the side of a facet: the smooth surface is another one, and lies below.
-    pub(super) fn fades(&self) -> bool {
-        !self.lifted && self.start.ng != self.smooth
-    }
-
-    /// The share of the light from a unit direction that the shape of the surface lets in: none from behind it, whatever the
-    /// shading normal says. It fades where [`LitPoint::fades`], so that facets do not show when they turn away.
-    ///
-    /// # Source
-    /// Chiang, Li, Burley, "Taming the Shadow Terminator", SIGGRAPH Talks 2019.
-    #[inline]
-    pub(super) fn facing(&self, to_light: Vec3) -> f32 {
-        let (cos, facet_cos) = (self.smooth.dot(to_light), self.start.ng.dot(to_light));
-        if cos <= 0.0 || (facet_cos <= 0.0 && !self.lifted) {
-            return 0.0;
-        }
-        if !self.fades() {
-            return 1.0;
-        }
-        let g = (facet_cos / (cos * self.start.ng.dot(self.smooth))).clamp(0.0, 1.0);
-        g * (1.0 + g * (1.0 - g))
+        !is_dark(light.nearest_cosine(self.horizon.start.p, mirror_dir), self.phong.shininess)
     }
 }

@@ -1,5 +1,6 @@
 //! Uniform points on the surface of anything that shines: shapes, and meshes through a table of triangle areas.
 
+use super::sums;
 use glam::Vec2;
 use heliostat_geometry::shape::AreaSample;
 use heliostat_geometry::{Aabb, Shape, TriMesh};
@@ -52,6 +53,14 @@ impl<'s> Emitter<'s> {
         }
     }
 
+    /// Area of what shines, in local space.
+    pub(super) fn area(&self) -> f64 {
+        match self {
+            Self::Shape(shape) => shape.geometry().area(),
+            Self::Mesh { triangles, .. } => triangles.area(),
+        }
+    }
+
     /// A point uniform by local area.
     pub(super) fn sample(&self, u: Vec2) -> Option<EmitterSample> {
         match self {
@@ -91,16 +100,13 @@ impl TriangleTable {
     }
 
     fn area(&self) -> f64 {
-        self.sums[self.sums.len() - 1]
+        sums::total(&self.sums)
     }
 
     /// A triangle with probability by area for `u` in `[0, 1)`, and what is left of `u` for a point on it.
     fn pick(&self, u: f32) -> (u32, f32) {
-        let position = f64::from(u) * self.area();
-        let i = self.sums.partition_point(|&sum| sum <= position).min(self.sums.len() - 1);
-        let before = if i == 0 { 0.0 } else { self.sums[i - 1] };
-        let rest = ((position - before) / (self.sums[i] - before)) as f32;
-        (self.triangles[i], rest.clamp(0.0, 1.0_f32.next_down()))
+        let (i, rest) = sums::pick(&self.sums, u);
+        (self.triangles[i], rest)
     }
 }
 

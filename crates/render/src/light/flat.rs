@@ -1,10 +1,12 @@
 //! Points on flat lamps that stand still: rectangles and disks, with everything that is the same for all points worked
 //! out once.
 
+use super::spherical_rectangle::WorldRectangle;
 use crate::lanes::{LANES, Lanes, Vec3Lanes};
 use glam::{DVec2, DVec3, Vec2, Vec3};
+use heliostat_geometry::error_bound::{gamma, is_square};
 use heliostat_geometry::warp::square_to_disk;
-use heliostat_geometry::{Shape, Transform};
+use heliostat_geometry::{Shape, SurfacePoint, Transform};
 
 /// A rectangle or a full disk in world space; a map may have stretched or sheared it.
 #[derive(Clone, Copy, Debug)]
@@ -18,6 +20,8 @@ pub(super) struct WorldFlat {
     /// Unit normal.
     pub(super) normal: Vec3,
     pub(super) area: f32,
+    /// Bound of the error of its points, per axis.
+    p_err: Vec3,
 }
 
 impl WorldFlat {
@@ -32,6 +36,9 @@ impl WorldFlat {
         let (x, z) = (half.x * matrix.matrix3.x_axis, half.y * matrix.matrix3.z_axis);
         let local = shape.geometry().area();
         let area = (local * transform.area_stretch(DVec3::Y)) as f32;
+        let reach = (matrix.translation.abs() + x.abs() + z.abs()).as_vec3();
+        // What a ray will see of the shape itself, and the few operations by which points are made here.
+        let seen = transform.surface_point(DVec3::new(half.x, 0.0, half.y), 0.0, DVec3::Y).p_err;
         (area > 0.0 && area.is_finite()).then(|| Self {
             centre: matrix.translation.as_vec3(),
             x: x.as_vec3(),
@@ -39,7 +46,20 @@ impl WorldFlat {
             is_disk,
             normal: transform.normal(Vec3::Y),
             area,
+            p_err: seen.max(transform.surface_point(DVec3::ZERO, 0.0, DVec3::Y).p_err) + gamma(16) * reach,
         })
+    }
+
+    /// The rectangle, if it is one with right angles.
+    pub(super) fn rectangle(&self) -> Option<WorldRectangle> {
+        let is_rectangle = !self.is_disk && is_square(self.x, self.z);
+        is_rectangle.then(|| WorldRectangle::new(self.centre, self.x, self.z))
+    }
+
+    /// A point of it with its error bound.
+    #[inline]
+    pub(super) fn at(&self, p: Vec3) -> SurfacePoint {
+        SurfacePoint { p, p_err: self.p_err, ng: self.normal }
     }
 
     /// How far its points lie from `p`, per axis, at most; to a few roundings.

@@ -5,23 +5,42 @@
 
 mod area;
 mod bundle;
+mod choice;
 mod delta;
 pub(crate) mod direct;
 mod emitter;
 mod flat;
+mod sky;
 mod sphere;
+mod spherical_rectangle;
+mod sums;
+mod table2d;
+mod whole;
+
+pub(crate) use whole::Lookout;
 
 use crate::world::{Hull, Lamp};
 use area::{AreaLight, FlatLamp};
+use choice::LightSampler;
 use delta::{DirectionalLight, PointLight};
 use glam::{Vec2, Vec3};
 use heliostat_geometry::{Aabb, SurfacePoint};
 use heliostat_scene::light::LightKind;
 use heliostat_scene::{Light, Rgb, Scene};
+use sky::Sky;
 use std::borrow::Cow;
 
 /// Shadow rays per point towards an object whose material shines.
 const SHINING_OBJECT_SAMPLES: u32 = 16;
+
+/// What the lights are made ready for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Use {
+    /// Whitted's recursion and what shows surfaces alone: lights stand in nobody's way, and shine as the report has it.
+    Recursion,
+    /// Paths: the surfaces of lights stop light, and all of it is what its unit says.
+    Paths,
+}
 
 /// Where the way of the light begins.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,8 +58,11 @@ pub(crate) enum Target {
 pub(crate) struct LightSample {
     /// Unit direction to the light.
     pub(crate) to_light: Vec3,
-    /// Irradiance on a surface that faces the light, as if all of the light came through this sample.
+    /// Irradiance on a surface that faces the light, as if all of the light came through this sample: radiance over `pdf`
+    /// where that is finite.
     pub(crate) arriving: Rgb,
+    /// Density of the direction by solid angle; infinite for light that no ray finds by itself.
+    pub(crate) pdf: f32,
     /// Where the shadow ray ends.
     pub(crate) target: Target,
 }
@@ -109,6 +131,15 @@ impl<'s> PreparedLight<'s> {
             Source::Area(light) => light.sample(p, u, time),
         }
     }
+
+    /// About the power in W; of light from far away, what arrives in a scene of so large a radius.
+    fn power(&self, scene_radius: f32) -> f32 {
+        match &self.source {
+            Source::Point(light) => light.power(scene_radius),
+            Source::Directional(light) => light.power(scene_radius),
+            Source::Area(light) => light.power(scene_radius),
+        }
+    }
 }
 
 /// All light sources of a scene.
@@ -118,29 +149,57 @@ pub(crate) struct LightTable<'s> {
     pub(crate) ambient: Rgb,
     /// The others, objects and parts of groups that shine included.
     pub(crate) lights: Vec<PreparedLight<'s>>,
+    /// What comes from infinitely far, from all around.
+    pub(crate) sky: Sky<'s>,
+    /// Indices of the lights that cover a part of the sky.
+    suns: Vec<usize>,
+    owners: Owners,
+    sampler: LightSampler,
+}
+
+/// Which light a surface belongs to.
+#[derive(Debug, Default)]
+struct Owners {
+    /// By lights of the scene.
+    declared: Vec<Option<usize>>,
+    /// By objects and their parts that shine, ascending.
+    shining: Vec<((u32, u64), usize)>,
 }
 
 impl<'s> LightTable<'s> {
     /// The lights of a scene whose ids are valid.
     ///
-    /// `lamps` are the parts of groups that may shine.
-    pub(crate) fn new(scene: &'s Scene, lamps: Vec<Lamp<'s>>) -> Self {
+    /// `lamps` are the parts of groups that may shine; everything finite lies in the box `bounds`.
+    pub(crate) fn new(scene: &'s Scene, lamps: Vec<Lamp<'s>>, bounds: Aabb, used: Use) -> Self {
         let ambient = |light: &&Light| matches!(light.kind, LightKind::Ambient);
-        let declared = scene.lights.iter().filter_map(|light| prepare(scene, light));
-        let objects = scene.objects.iter().map(|object| AreaLight::of_object(scene, object));
-        let parts = lamps.into_iter().map(|lamp| AreaLight::of_part(scene, lamp));
-        let shining = objects
-            .chain(parts)
-            .filter_map(|light| Some(PreparedLight::new(SHINING_OBJECT_SAMPLES, Source::Area(light?))));
-        Self {
-            ambient: scene.lights.iter().filter(ambient).map(|light| light.intensity).sum(),
-            lights: declared.chain(shining).collect(),
+        let ambient = scene.lights.iter().filter(ambient).map(|light| light.intensity).sum();
+        let (mut lights, mut owners) = (Vec::new(), Owners::default());
+        for light in &scene.lights {
+            let prepared = prepare(scene, light, used);
+            owners.declared.push(prepared.is_some().then_some(lights.len()));
+            lights.extend(prepared);
         }
+        let objects = (0..).zip(&scene.objects);
+        let objects = objects.map(|(i, object)| ((i, 0), AreaLight::of_object(scene, object)));
+        let parts = lamps.into_iter().map(|lamp| (lamp.owner, AreaLight::of_part(scene, lamp)));
+        for (owner, light) in objects.chain(parts) {
+            let Some(light) = light else { continue };
+            owners.shining.push((owner, lights.len()));
+            lights.push(PreparedLight::new(SHINING_OBJECT_SAMPLES, Source::Area(light)));
+        }
+        owners.shining.sort_unstable_by_key(|&(owner, _)| owner);
+        let is_sun =
+            |light: &PreparedLight<'_>| matches!(&light.source, Source::Directional(sun) if sun.is_wide());
+        let suns = (0..lights.len()).filter(|&i| is_sun(&lights[i])).collect();
+        let sky = Sky::new(&scene.background, ambient, used);
+        let scene_radius = if bounds.is_empty() { 1.0 } else { bounds.radius() };
+        let sampler = whole::sampler(&lights, &sky, scene_radius);
+        Self { ambient, lights, sky, suns, owners, sampler }
     }
 }
 
 /// A light that shines from somewhere, made ready; `None` for an ambient or a dark one.
-fn prepare<'s>(scene: &'s Scene, light: &'s Light) -> Option<PreparedLight<'s>> {
+fn prepare<'s>(scene: &'s Scene, light: &'s Light, used: Use) -> Option<PreparedLight<'s>> {
     if light.intensity == Rgb::ZERO {
         return None;
     }
@@ -154,9 +213,9 @@ fn prepare<'s>(scene: &'s Scene, light: &'s Light) -> Option<PreparedLight<'s>> 
             Source::Point(point.into_cone(*direction, *inner, *outer))
         }
         LightKind::Directional { direction, angle } => {
-            Source::Directional(DirectionalLight::new(light.intensity, *direction, *angle))
+            Source::Directional(DirectionalLight::new(light.intensity, *direction, *angle, used))
         }
-        LightKind::Area { .. } => Source::Area(AreaLight::of_light(scene, light)?),
+        LightKind::Area { .. } => Source::Area(AreaLight::of_light(scene, light, used)?),
     };
     Some(PreparedLight::new(light.samples, source))
 }

@@ -7,6 +7,7 @@
 use crate::world_sphere::WorldSphere;
 use glam::{DVec3, Vec2, Vec3};
 use heliostat_geometry::OrthonormalFrame;
+use heliostat_geometry::error_bound::gamma;
 use heliostat_geometry::warp::square_to_disk;
 use std::f64::consts::TAU;
 
@@ -22,14 +23,27 @@ pub(super) struct SphereSample {
 }
 
 impl WorldSphere {
+    /// The solid angle of the sphere as seen from `p`; `None` from inside.
+    #[inline]
+    pub(super) fn solid_angle(&self, p: Vec3) -> Option<f32> {
+        let sin2_max = self.squared_sine((self.centre - p.as_dvec3()).length_squared(), p)?;
+        Some((TAU * sin2_max / (1.0 + (1.0 - sin2_max).sqrt())) as f32)
+    }
+
+    /// The squared sine of the angle between the directions from `p` to the centre and to the rim; `None` from inside, and from
+    /// so near that rounding could decide.
+    #[inline]
+    fn squared_sine(&self, distance_squared: f64, p: Vec3) -> Option<f64> {
+        let reach = f64::from(p.abs().max_element()) + self.radius;
+        let least = self.radius + f64::from(gamma(16)) * reach;
+        (distance_squared > least * least).then(|| self.radius * self.radius / distance_squared)
+    }
+
     /// A direction from `p` uniform over the sphere as seen from there; `None` from inside.
     pub(super) fn sample(&self, p: Vec3, u: Vec2) -> Option<SphereSample> {
         let to_centre = self.centre - p.as_dvec3();
         let distance_squared = to_centre.length_squared();
-        let sin2_max = self.radius * self.radius / distance_squared;
-        if sin2_max >= 1.0 {
-            return None;
-        }
+        let sin2_max = self.squared_sine(distance_squared, p)?;
         let distance = distance_squared.sqrt();
         // Height of the cap of directions, 1 - cos, without cancellation.
         let cap = sin2_max / (1.0 + (1.0 - sin2_max).sqrt());

@@ -47,6 +47,8 @@ pub(crate) struct Inside {
     pub(crate) thing: Thing,
     /// Absorption per metre.
     pub(crate) absorption: Rgb,
+    /// Whether light that passes its surface is bent: no shadow ray leaves it then.
+    pub(crate) bends: bool,
 }
 
 impl PassingRay {
@@ -72,6 +74,15 @@ impl PassingRay {
         let crossing = Crossing { things, count, at, behind: behind.origin };
         let origin = offset_origin(at.p, BEFORE * at.p_err, at.ng, -dir);
         Self { ray: Ray::new(origin, dir), crossing: Some(crossing) }
+    }
+
+    /// `ray`, which returns from a hit that `self` found: what was crossed in its place is met again.
+    #[inline]
+    pub(crate) fn back(&self, hit: &SurfaceHit, ray: Ray) -> Self {
+        match &self.crossing {
+            Some(crossing) if crossing.is_at(&hit.hit.at) => Self::free(ray).behind(hit, ray.dir),
+            _ => Self::free(ray),
+        }
     }
 
     /// The ray with which a thing is asked: `range` of the search so far, the origin behind things that are crossed. In `room`

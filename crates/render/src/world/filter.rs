@@ -2,23 +2,47 @@
 
 use super::blocker::Chords;
 use super::body::{Body, SurfaceAt};
+use crate::bsdf::Bsdf;
 use crate::lanes::{LANES, Mask, Vec3Lanes, holds, lanes_of, widest};
 use crate::material_eval::MaterialEval;
+use crate::normals::Normals;
 use crate::phong::fresnel_at;
 use crate::texture_eval::TexturePoint;
 use glam::Vec3;
 use heliostat_geometry::{Ray, Transform};
-use heliostat_scene::material::{FresnelMode, Phong};
+use heliostat_scene::material::{FresnelMode, Phong, Surface};
 use heliostat_scene::{Material, Object, Rgb, Scene};
 use pulp::NullaryFnOnce;
+
+/// Which transparent surfaces let light through on its straight way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Clear {
+    /// None.
+    Nothing,
+    /// All, coloured, whether or not they bend it.
+    All,
+    /// Those that do not bend it.
+    Unbending,
+}
+
+impl Clear {
+    /// Whether a surface is one of them.
+    pub(super) fn holds(self, surface: &Surface) -> bool {
+        match self {
+            Self::Nothing => false,
+            Self::All => surface.refracts(),
+            Self::Unbending => surface.passes_straight(),
+        }
+    }
+}
 
 /// One thing that lets light through.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Filter<'a> {
     pub(super) scene: &'a Scene,
     pub(super) object: &'a Object,
-    /// Whether transparent surfaces let light through.
-    pub(super) glass: bool,
+    /// Which transparent surfaces let light through.
+    pub(super) clear: Clear,
 }
 
 /// What a surface does to light that goes through.
@@ -50,13 +74,17 @@ impl Filter<'_> {
     pub(super) fn share(&self, ray: &Ray, body: &Body<'_>, place: &Transform) -> Rgb {
         let (absorbed, open, absorption) = (Vec3::ZERO, Vec3::ZERO, Rgb::ZERO);
         let mut passed = Passed { share: Rgb::ONE, absorbed, open, absorption };
-        let is_done = self
-            .plain()
-            .is_some_and(|pane| body.each_crossing(place, ray, |t, n| passed.through(ray, t, [n, n], &pane)));
+        let is_done = self.plain().is_some_and(|pane| {
+            body.each_crossing(place, ray, |t, n| passed.through(ray, t, n, pane.seen(ray, n)))
+        });
         if !is_done {
             body.each_surface(place, ray, |surface| {
-                let SurfaceAt { hit, .. } = surface;
-                passed.through(ray, hit.t, [hit.at.ng, hit.ns], &self.pane_at(&surface));
+                let hit = &surface.hit;
+                let seen = match self.clear {
+                    Clear::Unbending => self.unbent(&surface, ray),
+                    Clear::Nothing | Clear::All => self.pane_at(&surface).seen(ray, hit.ns),
+                };
+                passed.through(ray, hit.t, hit.at.ng, seen);
             });
         }
         let depth = ray.dir.length() * passed.depth(ray.range.max);
@@ -67,7 +95,9 @@ impl Filter<'_> {
     pub(super) fn plain(&self) -> Option<Pane> {
         let material: &Material = &self.scene.materials[self.object.material(0).index()];
         let phong = &*material.surface.phong();
-        let is_plain = material.opacity.texture.is_none() && phong.transparency.texture.is_none();
+        let is_plain = material.opacity.texture.is_none()
+            && phong.transparency.texture.is_none()
+            && self.clear != Clear::Unbending;
         is_plain.then(|| self.pane(material.opacity.factor.clamp(0.0, 1.0), phong.transparency.factor, phong))
     }
 
@@ -80,9 +110,26 @@ impl Filter<'_> {
         self.pane(eval.opacity(material), eval.color(&phong.transparency), phong)
     }
 
+    /// What the surface itself lets through without a bend, and its absorption.
+    fn unbent(&self, surface: &SurfaceAt, ray: &Ray) -> (Rgb, Rgb) {
+        let material: &Material = &self.scene.materials[self.object.material(surface.slot).index()];
+        let at = TexturePoint { uv: surface.hit.uv, local: surface.local };
+        let eval = MaterialEval { textures: &self.scene.textures, at };
+        let opacity = eval.opacity(material);
+        let open = Rgb::splat(1.0 - opacity);
+        if opacity == 0.0 || !material.surface.passes_straight() {
+            return (open, Rgb::ZERO);
+        }
+        let normals = Normals::new(&eval, material, &surface.hit, ray.dir);
+        let bsdf = Bsdf::new(&material.surface, &eval, surface.color, normals.enters);
+        let cos = normals.ns.dot(normals.view);
+        let view = Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
+        (open + opacity * bsdf.straight(view), material.surface.absorption())
+    }
+
     fn pane(&self, opacity: f32, transparency: Rgb, phong: &Phong) -> Pane {
         let open = 1.0 - opacity;
-        if !self.glass || phong.transparency.is_zero() {
+        if self.clear == Clear::Nothing || phong.transparency.is_zero() {
             return Pane { open, glass: Rgb::ZERO, eta: None, absorption: Rgb::ZERO };
         }
         let eta = (phong.fresnel == FresnelMode::Dielectric).then(|| 1.0 / phong.ior);
@@ -91,15 +138,15 @@ impl Filter<'_> {
 }
 
 impl Passed {
-    /// Goes through a surface at `t` with unit normals `ng` and `ns`.
+    /// Goes through a surface at `t` with normal `ng` that lets through a share and absorbs behind it.
     ///
     /// The way inside is the sum of `t` where the ray leaves, minus those where it enters: it needs no order.
-    fn through(&mut self, ray: &Ray, t: f32, [ng, ns]: [Vec3; 2], pane: &Pane) {
+    fn through(&mut self, ray: &Ray, t: f32, ng: Vec3, (share, absorption): (Rgb, Rgb)) {
         let sign = if ray.dir.dot(ng) > 0.0 { 1.0 } else { -1.0 };
-        self.share *= pane.share(ray.dir.dot(ns).abs() / ray.dir.length());
-        self.absorbed += sign * t * pane.absorption;
-        self.open -= sign * pane.absorption;
-        self.absorption = pane.absorption;
+        self.share *= share;
+        self.absorbed += sign * t * absorption;
+        self.open -= sign * absorption;
+        self.absorption = absorption;
     }
 
     /// Absorption times way of a ray that ends at `end`, in lengths of the ray.
@@ -115,6 +162,11 @@ impl Passed {
 }
 
 impl Pane {
+    /// The share that passes along a ray that meets it where its normal is `ns`, and its absorption.
+    fn seen(&self, ray: &Ray, ns: Vec3) -> (Rgb, Rgb) {
+        (self.share(ray.dir.dot(ns).abs() / ray.dir.length()), self.absorption)
+    }
+
     /// The share that passes at an angle with that cosine, seen from outside.
     #[inline(always)]
     fn share(&self, cos: f32) -> Rgb {

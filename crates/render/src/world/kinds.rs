@@ -2,8 +2,10 @@
 //! at.
 
 use super::body::Parameters;
+use super::filter::Clear;
 use super::place::Place;
 use super::solid::Content;
+use crate::light::Use;
 use heliostat_scene::light::LightKind;
 use heliostat_scene::material::Material;
 use heliostat_scene::object::Geometry;
@@ -23,6 +25,11 @@ impl Shadow {
     /// No shadow.
     pub(super) const NONE: Self = Self { stops: false, filters: false };
 
+    /// That of the visible surface of a light.
+    pub(super) fn of_light(used: Use) -> Self {
+        Self { stops: used == Use::Paths, filters: false }
+    }
+
     /// That of both.
     pub(super) fn and(self, other: Self) -> Self {
         Self { stops: self.stops || other.stops, filters: self.filters || other.filters }
@@ -40,8 +47,8 @@ pub(super) fn visible_lights(scene: &Scene) -> impl Iterator<Item = (u32, (&Geom
 }
 
 /// How an object stops light, by all of its materials or by what its group holds.
-pub(super) fn shadow_of(scene: &Scene, object: &Object, content: &Content<'_>, glass: bool) -> Shadow {
-    let lets_through = |material: &Material| material.has_holes() || (glass && material.surface.refracts());
+pub(super) fn shadow_of(scene: &Scene, object: &Object, content: &Content<'_>, clear: Clear) -> Shadow {
+    let lets_through = |material: &Material| material.has_holes() || clear.holds(&material.surface);
     match content {
         _ if !object.casts_shadow => Shadow::NONE,
         Content::Group(group) => group.shadow(),

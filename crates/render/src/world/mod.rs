@@ -37,8 +37,9 @@ pub(crate) use shadow_rays::ShadowRays;
 pub(crate) use thing::Thing;
 pub use trees::TreeCache;
 
-use crate::light::{LightTable, PreparedLight};
+use crate::light::{LightTable, PreparedLight, Use};
 use body::{Parameters, SurfaceAt};
+use filter::Clear;
 use group::{Groups, Look};
 use heliostat_geometry::{Aabb, Ray};
 use heliostat_index::{BspTree, MeshTree, TraversalCost};
@@ -74,8 +75,8 @@ pub struct World<'s> {
     filters: Candidates,
     /// Whether any solid lets light through.
     has_filters: bool,
-    /// Whether glass lets light through.
-    glass: bool,
+    /// Which transparent surfaces let light through.
+    clear: Clear,
     /// Whether all objects are seen by camera rays.
     all_visible: bool,
 }
@@ -100,8 +101,8 @@ impl<'s> World<'s> {
     ) -> Result<Self, WorldError> {
         let census = error::check(scene)?;
         let trees = cache.trees(scene)?;
-        let glass = settings.transparent_shadows;
-        let ready = group::Settings { glass, layers: &settings.layers };
+        let (used, clear) = used(settings);
+        let ready = group::Settings { clear, layers: &settings.layers };
         let groups =
             group::prepare(scene, &census, &trees, ready).map_err(|error| error::group(scene, error))?;
         let stock = Stock { scene, trees: &trees, groups: &groups };
@@ -110,8 +111,8 @@ impl<'s> World<'s> {
         let solids: Vec<_> =
             objects.chain(surfaces).map(|(geometry, place)| Solid::new(&stock, geometry, place)).collect();
         let objects = || scene.objects.iter().zip(&solids);
-        let shadows = objects().map(|(object, solid)| shadow_of(scene, object, &solid.content, glass));
-        let shadows: Vec<_> = shadows.chain(shining.iter().map(|_| Shadow::NONE)).collect();
+        let shadows = objects().map(|(object, solid)| shadow_of(scene, object, &solid.content, clear));
+        let shadows: Vec<_> = shadows.chain(shining.iter().map(|_| Shadow::of_light(used))).collect();
         let parameters = scene.objects.iter().map(|object| parameters_of(scene, object, &settings.layers));
         let parameters = parameters.chain(shining.iter().map(|_| Parameters::Used)).collect();
         let level = Level::new(&solids).map_err(|source| error::objects(scene, source))?;
@@ -120,7 +121,7 @@ impl<'s> World<'s> {
             casters: candidates(|shadow| *shadow != Shadow::NONE),
             stoppers: candidates(|shadow| shadow.stops),
             filters: candidates(|shadow| shadow.filters),
-            lights: LightTable::new(scene, lamps(scene, &groups)),
+            lights: LightTable::new(scene, lamps(scene, &groups), level.bounds(), used),
             has_filters: shadows.iter().any(|shadow| shadow.filters),
             all_visible: scene.objects.iter().all(|object| object.visible),
             groups: in_order(scene, groups),
@@ -131,7 +132,7 @@ impl<'s> World<'s> {
             parameters,
             shining,
             trees,
-            glass,
+            clear,
         })
     }
 
@@ -268,6 +269,11 @@ impl<'s> World<'s> {
         &self.lights.lights
     }
 
+    /// All lights, for paths.
+    pub(crate) fn light_table(&self) -> &LightTable<'s> {
+        &self.lights
+    }
+
     /// Ia.
     pub(crate) fn ambient(&self) -> Rgb {
         self.lights.ambient
@@ -362,12 +368,21 @@ impl<'s> World<'s> {
     }
 }
 
+/// What lights are for, and which transparent surfaces let light through.
+fn used(settings: &RenderSettings) -> (Use, Clear) {
+    if settings.integrator.traces_paths() {
+        (Use::Paths, Clear::Unbending)
+    } else {
+        (Use::Recursion, if settings.transparent_shadows { Clear::All } else { Clear::Nothing })
+    }
+}
+
 /// The parts that shine in the groups of all objects.
 fn lamps<'s>(scene: &'s Scene, groups: &Groups<'s>) -> Vec<Lamp<'s>> {
     let mut lamps = Vec::new();
-    for object in &scene.objects {
+    for (i, object) in (0..).zip(&scene.objects) {
         if let Geometry::Group(id) = &object.geometry {
-            groups[id].each_lamp(Place::of(&object.motion), &mut |lamp| lamps.push(lamp));
+            groups[id].each_lamp(i, Place::of(&object.motion), &mut |lamp| lamps.push(lamp));
         }
     }
     lamps

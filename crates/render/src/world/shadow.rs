@@ -73,7 +73,7 @@ impl World<'_> {
     pub(super) fn share_past(&self, solid: u32, ray: &Ray, time: f32) -> Rgb {
         let object = &self.scene.objects[solid as usize];
         let solid = &self.solids[solid as usize];
-        let filter = |object| Filter { scene: self.scene, object, glass: self.glass };
+        let filter = |object| Filter { scene: self.scene, object, clear: self.clear };
         let mut room = None;
         // Without a place at this moment it stops nothing.
         let Some(place) = solid.place.at(time, &mut room) else { return Rgb::ONE };

@@ -74,7 +74,7 @@ impl World<'_> {
         let object = &self.scene.objects[thing as usize];
         let chords = match self.solids[thing as usize].blocker {
             Some(Blocker::Sphere(sphere)) => {
-                let filter = Filter { scene: self.scene, object, glass: self.glass };
+                let filter = Filter { scene: self.scene, object, clear: self.clear };
                 filter.plain().and_then(|pane| Some((pane, Chords::new(&sphere, rays)?)))
             }
             _ => None,

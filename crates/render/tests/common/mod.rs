@@ -3,7 +3,7 @@
 #![allow(dead_code, reason = "each test file uses its own part")]
 #![allow(clippy::unwrap_used, reason = "a stage that does not stand fails its test")]
 
-use glam::{DAffine3, DMat3, Vec2, Vec3};
+use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 use heliostat_geometry::shape::{Cuboid, Plane, Rectangle, Sphere, Torus};
 use heliostat_geometry::{Ray, Shape, Transform, TriMesh};
 use heliostat_render::integrator::create;
@@ -172,6 +172,50 @@ impl<'a> Looker<'a> {
         let mut counters = RayCounters::default();
         let mut sampler = Sampler::new(self.seed, [0, 0], sample);
         (self.integrator.radiance(&self.world, &ray, &mut sampler, &mut counters), counters)
+    }
+}
+
+/// A mean and its standard deviation, per channel.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Estimate {
+    pub(crate) mean: Rgb,
+    pub(crate) deviation: Rgb,
+}
+
+impl Estimate {
+    /// What comes along the ray from `from` towards `to`: `samples` for each of 32 seeds, which are independent of each other.
+    pub(crate) fn new(stage: &Stage, from: Vec3, to: Vec3, samples: u32) -> Self {
+        const SEEDS: u64 = 32;
+        let mut looker = Looker::new(stage);
+        let (mut sum, mut squares) = (DVec3::ZERO, DVec3::ZERO);
+        for seed in 0..SEEDS {
+            looker.seed = seed;
+            let one = |sample| looker.look(from, (to - from).normalize(), sample).radiance.as_dvec3();
+            let mean = (0..samples).map(one).sum::<DVec3>() / f64::from(samples);
+            sum += mean;
+            squares += mean * mean;
+        }
+        let n = SEEDS as f64;
+        let mean = sum / n;
+        let variance = (squares / n - mean * mean).max(DVec3::ZERO) / (n - 1.0);
+        Self { mean: mean.as_vec3(), deviation: variance.sqrt().as_vec3() }
+    }
+
+    /// Asserts that the mean is `expected` within four and a half deviations and a rounding: one in a hundred thousand right ones
+    /// fails.
+    #[track_caller]
+    pub(crate) fn assert_is(&self, expected: Rgb, what: &str) {
+        let allowed = 4.5 * self.deviation + 1e-4 * expected.abs() + 1e-6;
+        let error = (self.mean - expected).abs();
+        assert!(error.cmple(allowed).all(), "{what}: {self:?} for {expected}");
+    }
+
+    /// Asserts that two estimates are of the same number.
+    #[track_caller]
+    pub(crate) fn assert_same(&self, other: &Self, what: &str) {
+        let squares = self.deviation * self.deviation + other.deviation * other.deviation;
+        let joint = Self { mean: self.mean, deviation: squares.map(f32::sqrt) };
+        joint.assert_is(other.mean, what);
     }
 }
 

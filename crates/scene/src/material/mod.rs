@@ -8,6 +8,7 @@ pub use input::{Channel, ColorInput, FloatInput};
 pub use phong::{FresnelMode, Phong};
 pub use standard::{Conductor, Standard, ThinFilm};
 
+use crate::color::Rgb;
 use crate::ids::TextureId;
 use std::borrow::Cow;
 
@@ -74,6 +75,26 @@ impl Surface {
         match self {
             Self::Phong(phong) => !phong.transparency.is_zero(),
             Self::Standard(standard) => standard.refracts(),
+            Self::Unlit(_) => false,
+        }
+    }
+
+    /// Absorption inside per metre and channel.
+    pub fn absorption(&self) -> Rgb {
+        match self {
+            Self::Phong(phong) => phong.absorption,
+            Self::Standard(standard) if !standard.thin_walled => standard.absorption,
+            Self::Standard(_) | Self::Unlit(_) => Rgb::ZERO,
+        }
+    }
+
+    /// Whether light may pass through it without a bend: a smooth wall without an inside, or one whose inside bends nothing.
+    pub fn passes_straight(&self) -> bool {
+        match self {
+            Self::Phong(phong) => phong.ior == 1.0 && self.refracts(),
+            Self::Standard(standard) => {
+                standard.thin_walled && standard.roughness.factor == 0.0 && self.refracts()
+            }
             Self::Unlit(_) => false,
         }
     }

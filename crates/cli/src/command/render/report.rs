@@ -144,6 +144,7 @@ fn rays_json(rays: &RayCounters) -> Value {
     json!({
         "camera": rays.camera,
         "reflection": rays.reflection,
+        "scatter": rays.scatter,
         "refraction": rays.refraction,
         "shadow": rays.shadow,
         "ambient_occlusion": rays.ao,

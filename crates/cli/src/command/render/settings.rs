@@ -54,6 +54,9 @@ fn integrator(name: Integrator) -> IntegratorKind {
         Integrator::Uv => IntegratorKind::Uv,
         Integrator::AmbientOcclusion => IntegratorKind::AmbientOcclusion,
         Integrator::Cost => IntegratorKind::Cost,
+        Integrator::Direct => IntegratorKind::Direct,
+        Integrator::PathSimple => IntegratorKind::PathSimple,
+        Integrator::Path => IntegratorKind::Path,
     }
 }
 

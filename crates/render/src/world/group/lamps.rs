@@ -10,6 +10,8 @@ use heliostat_scene::Object;
 /// A part of a group that may shine.
 #[derive(Debug)]
 pub(crate) struct Lamp<'s> {
+    /// The solid that holds it, and the number of the part.
+    pub(crate) owner: (u32, u64),
     /// The object with the material.
     pub(crate) object: &'s Object,
     /// Where it stands.
@@ -32,22 +34,26 @@ enum Link<'s> {
 }
 
 impl<'s> PreparedGroup<'s> {
-    /// Visits every part that may shine, where the group stands at `place`, in the order of parts.
-    pub(crate) fn each_lamp(&self, place: Place<'s>, visit: &mut dyn FnMut(Lamp<'s>)) {
-        self.lamps_below(&mut vec![Link::Place(place)], visit);
+    /// Visits every part that may shine, where the group is a solid that stands at `place`, in the order of parts.
+    pub(crate) fn each_lamp(&self, solid: u32, place: Place<'s>, visit: &mut dyn FnMut(Lamp<'s>)) {
+        self.lamps_below((solid, 0), &mut vec![Link::Place(place)], visit);
     }
 
-    fn lamps_below(&self, links: &mut Vec<Link<'s>>, visit: &mut dyn FnMut(Lamp<'s>)) {
+    /// `owner` holds the number of the first part.
+    fn lamps_below(&self, owner: (u32, u64), links: &mut Vec<Link<'s>>, visit: &mut dyn FnMut(Lamp<'s>)) {
         let shining = || self.members.iter().filter(|member| member.lamps > 0);
         if shining().next().is_none() {
             return;
         }
-        for copy in &self.group.places {
+        for (i, copy) in (0..).zip(&self.group.places) {
             for member in shining() {
+                let owner = (owner.0, owner.1 + i * self.parts + member.first);
                 links.extend([Link::Copy(copy), Link::Place(member.place)]);
                 match &member.content {
-                    Content::Group(group) => group.lamps_below(links, visit),
-                    Content::Body(_) => visit(Lamp { object: member.object, chain: Chain::new(links) }),
+                    Content::Group(group) => group.lamps_below(owner, links, visit),
+                    Content::Body(_) => {
+                        visit(Lamp { owner, object: member.object, chain: Chain::new(links) });
+                    }
                 }
                 links.truncate(links.len() - 2);
             }

@@ -18,6 +18,7 @@ pub(crate) use lamps::{Chain, Lamp};
 pub(super) use walk::Look;
 
 use super::body::Parameters;
+use super::filter::Clear;
 use super::kinds::{Shadow, parameters_of, shadow_of};
 use super::place::Place;
 use super::solid::{Content, Stock};
@@ -64,8 +65,8 @@ struct Member<'s> {
 /// What making groups ready needs to know.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Settings<'a> {
-    /// Whether glass lets light through.
-    pub(super) glass: bool,
+    /// Which transparent surfaces let light through.
+    pub(super) clear: Clear,
     pub(super) layers: &'a Layers,
 }
 
@@ -128,7 +129,7 @@ impl<'s> PreparedGroup<'s> {
                     place: Place::of(&object.motion),
                     first,
                     lamps: tally.lamps,
-                    shadow: shadow_of(scene, object, &content, settings.glass),
+                    shadow: shadow_of(scene, object, &content, settings.clear),
                     parameters: parameters_of(scene, object, settings.layers),
                     content,
                 }

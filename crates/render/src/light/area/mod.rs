@@ -1,8 +1,11 @@
 //! Light from surfaces: area lights, and objects whose material shines.
 
+mod met;
+
 use super::emitter::{Emitter, EmitterSample};
 use super::flat::WorldFlat;
-use super::{LightSample, Target};
+use super::spherical_rectangle::WorldRectangle;
+use super::{LightSample, Target, Use};
 use crate::lanes::{LANES, Lanes, Vec3Lanes};
 use crate::material_eval::MaterialEval;
 use crate::texture_eval::TexturePoint;
@@ -24,6 +27,10 @@ pub(super) struct AreaLight<'s> {
     falloff: Falloff,
     two_sided: bool,
     shortcut: Option<Shortcut<'s>>,
+    /// Whether the surface stops light.
+    stops: bool,
+    /// Whether rays meet the surface and find the same light there.
+    is_met: bool,
 }
 
 /// Where the surface is.
@@ -60,9 +67,9 @@ impl Stand<'_> {
 /// What the surface gives off.
 #[derive(Debug)]
 enum Radiance<'s> {
-    /// The same everywhere. The surface itself throws no shadow.
+    /// The same everywhere.
     Constant(Rgb),
-    /// The emission of the object's materials. The object throws shadows.
+    /// The emission of the object's materials.
     Object(&'s Scene, &'s Object),
 }
 
@@ -73,6 +80,8 @@ enum Shortcut<'s> {
     Sphere(&'s Sphere, Box<Now<'s>>, WorldSphere),
     /// A flat lamp.
     Flat(WorldFlat),
+    /// A rectangle that falls off: uniform by solid angle where that pays.
+    Rectangle(WorldFlat, WorldRectangle),
 }
 
 /// A flat lamp that stands still, for many samples at once.
@@ -115,17 +124,20 @@ impl FlatLamp<'_> {
 
 impl<'s> AreaLight<'s> {
     /// An area light of the scene; `None` when its surface has no finite area above 0.
-    pub(super) fn of_light(scene: &'s Scene, light: &'s Light) -> Option<Self> {
-        let LightKind::Area { geometry, transform, two_sided, falloff, .. } = &light.kind else {
+    pub(super) fn of_light(scene: &'s Scene, light: &'s Light, used: Use) -> Option<Self> {
+        let LightKind::Area { geometry, transform, two_sided, falloff, visible } = &light.kind else {
             return None;
         };
+        let falls_off = *falloff == Falloff::InverseSquare;
         let flat = match geometry {
-            Geometry::Shape(shape) => WorldFlat::new(shape, transform).map(Shortcut::Flat),
+            Geometry::Shape(shape) => WorldFlat::new(shape, transform),
             Geometry::Mesh(_) | Geometry::Group(_) => None,
         };
-        let sphere = || {
-            if *falloff == Falloff::InverseSquare { sphere_of(geometry, Now::Still(transform)) } else { None }
-        };
+        let flat = flat.map(|flat| match flat.rectangle() {
+            Some(rectangle) if used == Use::Paths && falls_off => Shortcut::Rectangle(flat, rectangle),
+            _ => Shortcut::Flat(flat),
+        });
+        let sphere = || if falls_off { sphere_of(geometry, Now::Still(transform)) } else { None };
         Some(Self {
             emitter: Emitter::new(scene, geometry, |_| true)?,
             stand: Stand::Place(Place::Still(transform)),
@@ -133,6 +145,8 @@ impl<'s> AreaLight<'s> {
             falloff: *falloff,
             two_sided: *two_sided,
             shortcut: flat.or_else(sphere),
+            stops: *visible && used == Use::Paths,
+            is_met: *visible && falls_off,
         })
     }
 
@@ -166,6 +180,8 @@ impl<'s> AreaLight<'s> {
             falloff: Falloff::InverseSquare,
             two_sided: true,
             shortcut: still.and_then(|place| sphere_of(&object.geometry, place)),
+            stops: true,
+            is_met: true,
         })
     }
 
@@ -183,7 +199,10 @@ impl<'s> AreaLight<'s> {
     #[inline]
     pub(super) fn sample(&self, p: Vec3, u: Vec2, time: f32) -> Option<LightSample> {
         let by_shortcut = match &self.shortcut {
-            Some(Shortcut::Flat(flat)) => return self.sample_flat(flat, p, u),
+            Some(Shortcut::Flat(flat)) => return self.sample_flat(flat, flat.point(u), p),
+            Some(Shortcut::Rectangle(flat, rectangle)) => {
+                return self.sample_rectangle(flat, rectangle, p, u);
+            }
             Some(Shortcut::Sphere(local, transform, sphere)) => {
                 self.sample_sphere(local, transform, *sphere, p, u)
             }
@@ -192,13 +211,33 @@ impl<'s> AreaLight<'s> {
         by_shortcut.or_else(|| self.sample_by_area(p, u, time))
     }
 
-    /// One point of a flat lamp.
+    /// A point of a flat lamp.
     #[inline]
-    fn sample_flat(&self, flat: &WorldFlat, p: Vec3, u: Vec2) -> Option<LightSample> {
-        let on_light = flat.point(u);
+    fn sample_flat(&self, flat: &WorldFlat, on_light: Vec3, p: Vec3) -> Option<LightSample> {
         let Radiance::Constant(radiance) = self.radiance else { return None };
         let (to_light, share) = self.share(on_light - p, flat.normal, flat.area)?;
-        Some(LightSample { to_light, arriving: share * radiance, target: Target::Point(on_light) })
+        Some(LightSample {
+            to_light,
+            arriving: share * radiance,
+            pdf: self.density_of(share),
+            target: self.target(flat.at(on_light)),
+        })
+    }
+
+    /// One point of a rectangle.
+    #[inline]
+    fn sample_rectangle(
+        &self,
+        flat: &WorldFlat,
+        rectangle: &WorldRectangle,
+        p: Vec3,
+        u: Vec2,
+    ) -> Option<LightSample> {
+        let Some(seen) = rectangle.seen_from(p) else { return self.sample_flat(flat, flat.point(u), p) };
+        let by_area = self.sample_flat(flat, seen.sample(u), p)?;
+        let Radiance::Constant(radiance) = self.radiance else { return None };
+        let (arriving, pdf) = (seen.solid_angle * radiance, self.density_of(seen.solid_angle));
+        Some(LightSample { arriving, pdf, ..by_area })
     }
 
     /// The lamp, where it is a flat one that stands still.
@@ -220,6 +259,7 @@ impl<'s> AreaLight<'s> {
         Some(LightSample {
             to_light,
             arriving: share * self.radiance_at(&sample),
+            pdf: self.density_of(share),
             target: self.target(on_light.at),
         })
     }
@@ -241,6 +281,7 @@ impl<'s> AreaLight<'s> {
         Some(LightSample {
             to_light: seen.dir,
             arriving: seen.solid_angle * radiance,
+            pdf: self.density_of(seen.solid_angle),
             target: self.target(at),
         })
     }
@@ -279,10 +320,13 @@ impl<'s> AreaLight<'s> {
     }
 
     fn target(&self, at: SurfacePoint) -> Target {
-        match self.radiance {
-            Radiance::Constant(_) => Target::Point(at.p),
-            Radiance::Object(..) => Target::Surface(at),
-        }
+        if self.stops { Target::Surface(at) } else { Target::Point(at.p) }
+    }
+
+    /// See [`LightSample::pdf`], for a sample that stands for so much solid angle.
+    #[inline]
+    fn density_of(&self, solid_angle: f32) -> f32 {
+        if self.is_met { solid_angle.recip() } else { f32::INFINITY }
     }
 }
 

@@ -1,0 +1,253 @@
+//! A surface point as paths see it: how it scatters light, and which way goes on from it.
+
+use crate::bsdf::{Bsdf, BsdfSample, Event};
+use crate::counters::RayCounters;
+use crate::horizon::Horizon;
+use crate::integrator::FirstHit;
+use crate::light::{Lookout, Target};
+use crate::material_eval::MaterialEval;
+use crate::normals::Normals;
+use crate::texture_eval::TexturePoint;
+use crate::world::{Inside, PassingRay, SurfaceHit, World};
+use glam::{Vec2, Vec3};
+use heliostat_geometry::{OrthonormalFrame, Ray};
+use heliostat_scene::material::Surface;
+use heliostat_scene::{Material, MaterialId, Rgb};
+
+/// A hit on an object whose material is not evaluated yet.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Covering<'a> {
+    material: &'a Material,
+    eval: MaterialEval<'a>,
+}
+
+/// A surface point seen from one side.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PathPoint<'a> {
+    surface: &'a SurfaceHit,
+    material: &'a Material,
+    normals: Normals,
+    horizon: Horizon,
+    /// Around the shading normal.
+    frame: OrthonormalFrame,
+    /// Direction to the viewer in the frame.
+    wo: Vec3,
+    time: f32,
+    pub(crate) bsdf: Bsdf,
+}
+
+/// A way on from a point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Onward {
+    /// The ray, and what it crosses.
+    pub(crate) passing: PassingRay,
+    /// Glass that it runs through; as before where `None`.
+    pub(crate) inside: Option<Option<Inside>>,
+    /// Whether it goes on as if there were nothing, so that lights are seen through the surface.
+    pub(crate) is_straight: bool,
+    /// How it was drawn; the weight is what the radiance from there is multiplied by.
+    pub(crate) sample: BsdfSample,
+}
+
+impl Onward {
+    /// Counts its ray.
+    #[inline]
+    pub(crate) fn count(&self, counters: &mut RayCounters) {
+        *match self.sample.event {
+            Event::Transmission => &mut counters.refraction,
+            _ if self.sample.is_delta() => &mut counters.reflection,
+            Event::Diffuse | Event::Glossy => &mut counters.scatter,
+        } += 1;
+    }
+}
+
+impl<'a> Covering<'a> {
+    /// The material of a hit.
+    #[inline]
+    pub(crate) fn new(world: &World<'a>, surface: &SurfaceHit, material: MaterialId) -> Self {
+        let scene = world.scene();
+        let at = TexturePoint { uv: surface.hit.uv, local: surface.local };
+        let eval = MaterialEval { textures: &scene.textures, at };
+        Self { material: &scene.materials[material.index()], eval }
+    }
+
+    /// Coverage in `[0, 1]`.
+    #[inline]
+    pub(crate) fn opacity(&self) -> f32 {
+        if self.material.has_holes() { self.eval.opacity(self.material) } else { 1.0 }
+    }
+
+    /// Radiance that the surface gives off and that lights the scene.
+    #[inline]
+    pub(crate) fn emission(&self) -> Rgb {
+        let emission = self.material.surface.emission();
+        if emission.is_zero() { Rgb::ZERO } else { self.eval.color(&emission) }
+    }
+
+    /// Radiance that is seen and lights nothing.
+    pub(crate) fn glow(&self) -> Rgb {
+        match &self.material.surface {
+            Surface::Unlit(color) => self.eval.color(color),
+            Surface::Phong(_) | Surface::Standard(_) => Rgb::ZERO,
+        }
+    }
+
+    /// Absorption on the way here of a ray in direction `dir` that leaves glass.
+    #[inline]
+    pub(crate) fn left_absorption(&self, surface: &SurfaceHit, dir: Vec3) -> Option<Rgb> {
+        let leaves = dir.dot(surface.hit.at.ng) > 0.0 && self.material.surface.refracts();
+        leaves.then(|| self.material.surface.absorption())
+    }
+}
+
+impl<'a> PathPoint<'a> {
+    /// The point where a ray in direction `dir` met what is covered.
+    #[inline]
+    pub(crate) fn new(
+        world: &World<'a>,
+        covering: &Covering<'a>,
+        surface: &'a SurfaceHit,
+        dir: Vec3,
+        time: f32,
+    ) -> Self {
+        let Covering { material, eval } = covering;
+        let normals = Normals::new(eval, material, &surface.hit, dir);
+        let frame = frame_along(normals.ns, surface.hit.dpdu);
+        let sides = [normals.ng, normals.smooth];
+        Self {
+            surface,
+            material,
+            normals,
+            horizon: Horizon::new(world, surface, sides, !normals.enters, time),
+            frame,
+            wo: frame.to_local(normals.view),
+            time,
+            bsdf: Bsdf::new(&material.surface, eval, surface.color, normals.enters),
+        }
+    }
+
+    /// What the layers show.
+    pub(crate) fn first_hit(&self, object: u32, material: MaterialId) -> FirstHit {
+        let hit = &self.surface.hit;
+        FirstHit {
+            p: hit.at.p,
+            normal: self.normals.ns,
+            albedo: self.bsdf.albedo(),
+            uv: hit.uv,
+            object: Some(object),
+            material: Some(material),
+        }
+    }
+
+    /// From where lights are asked.
+    #[inline]
+    pub(crate) fn lookout(&self) -> Lookout {
+        Lookout { p: self.horizon.start.p, n: self.normals.ns, time: self.time }
+    }
+
+    /// What is sent to the viewer of light from the unit direction `to_light`, times the cosine there, and the density with
+    /// which [`PathPoint::sample`] draws it.
+    #[inline]
+    pub(crate) fn eval(&self, to_light: Vec3) -> (Rgb, f32) {
+        let wi = self.frame.to_local(to_light);
+        let share = self.share(wi, to_light);
+        if share == 0.0 {
+            return (Rgb::ZERO, 0.0);
+        }
+        let (value, pdf) = self.bsdf.eval(self.wo, wi);
+        (share * value, pdf)
+    }
+
+    /// A way on, by random numbers for the layer and the direction; `None` where the light is lost.
+    #[inline]
+    pub(crate) fn sample(&self, passing: &PassingRay, layer: f32, u: Vec2) -> Option<Onward> {
+        let mut sample = self.bsdf.sample(self.wo, layer, u)?;
+        let dir = self.frame.to_world(sample.wi);
+        if sample.is_delta() {
+            return Some(self.smooth_way(passing, sample, dir));
+        }
+        sample.weight *= self.share(sample.wi, dir);
+        if sample.weight == Rgb::ZERO {
+            return None;
+        }
+        Some(if sample.wi.z > 0.0 {
+            self.back(passing, sample, dir)
+        } else {
+            self.behind(passing, sample, dir)
+        })
+    }
+
+    /// The shadow ray to a target in the unit direction `to_light`.
+    #[inline]
+    pub(crate) fn shadow_ray(&self, to_light: Vec3, target: &Target) -> Ray {
+        let is_behind = to_light.dot(self.normals.ns) < 0.0;
+        let start = if is_behind { self.surface.hit.at } else { self.horizon.start };
+        match target {
+            Target::Sky => start.spawn(to_light),
+            Target::Point(p) => start.spawn_to(*p),
+            Target::Surface(at) => start.spawn_to_surface(at),
+        }
+    }
+
+    /// The share of light from a direction that the shape of the surface lets in.
+    #[inline]
+    fn share(&self, wi: Vec3, dir: Vec3) -> f32 {
+        if wi.z >= 0.0 {
+            self.horizon.facing(dir)
+        } else {
+            f32::from(u8::from(dir.dot(self.normals.ng) < 0.0))
+        }
+    }
+
+    /// The way of mirror and clear glass. A direction that a bent normal sent to the wrong side is folded back at the surface.
+    fn smooth_way(&self, passing: &PassingRay, sample: BsdfSample, dir: Vec3) -> Onward {
+        if sample.wi == -self.wo {
+            let dir = -self.normals.view;
+            let is_straight = self.material.surface.passes_straight();
+            return Onward { is_straight, ..self.behind(passing, sample, dir) };
+        }
+        let height = dir.dot(self.normals.ng);
+        let is_astray = (height > 0.0) != (sample.wi.z > 0.0);
+        let dir = if is_astray { dir - 2.0 * height * self.normals.ng } else { dir };
+        if sample.wi.z < 0.0 {
+            return self.behind(passing, sample, dir);
+        }
+        let passing = passing.back(self.surface, self.surface.hit.spawn(dir));
+        Onward { passing, inside: None, is_straight: false, sample }
+    }
+
+    /// A way to the viewer's side.
+    #[inline]
+    fn back(&self, passing: &PassingRay, sample: BsdfSample, dir: Vec3) -> Onward {
+        let ray = self.horizon.start.spawn(dir);
+        let passing =
+            if self.horizon.lifted { PassingRay::free(ray) } else { passing.back(self.surface, ray) };
+        Onward { passing, inside: None, is_straight: false, sample }
+    }
+
+    /// A way through the surface.
+    fn behind(&self, passing: &PassingRay, sample: BsdfSample, dir: Vec3) -> Onward {
+        let surface = &self.material.surface;
+        let enters = self.normals.enters && surface.refracts();
+        let (absorption, bends) = (surface.absorption(), !surface.passes_straight());
+        Onward {
+            passing: passing.behind(self.surface, dir),
+            inside: Some(self.surface.thing().filter(|_| enters).map(|thing| Inside {
+                thing,
+                absorption,
+                bends,
+            })),
+            is_straight: false,
+            sample,
+        }
+    }
+}
+
+/// The frame around `n` with x along a tangent; any x where there is no tangent.
+#[inline]
+fn frame_along(n: Vec3, tangent: Vec3) -> OrthonormalFrame {
+    match (tangent - tangent.dot(n) * n).try_normalize() {
+        Some(x) => OrthonormalFrame { x, y: n.cross(x), z: n },
+        None => OrthonormalFrame::around(n),
+    }
+}
