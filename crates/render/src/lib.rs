@@ -64,6 +64,8 @@
 
 mod background;
 mod bits;
+#[allow(dead_code, reason = "integrators that scatter light are yet to call it")]
+mod bsdf;
 mod camera_ray;
 mod check;
 pub mod counters;

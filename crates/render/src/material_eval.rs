@@ -1,5 +1,7 @@
 //! Materials at a point: the textured description becomes a few numbers.
 
+mod standard;
+
 use crate::texture_eval::{self, TexturePoint, uv_step};
 use glam::{Vec2, Vec3, Vec4};
 use heliostat_geometry::Hit;

@@ -5,7 +5,22 @@
 //! What is called the value is `f(wo, wi) |wi.z|`; densities are by solid angle. Mirrors and clear glass have no value: they
 //! answer to samples alone.
 
+mod diffuse;
+mod fresnel;
+mod ggx;
+mod glass;
+mod quadrature;
+mod reflect;
+mod sheen;
+mod standard;
+mod table;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use standard::{StandardBsdf, StandardPoint};
+
 use glam::Vec3;
+use glass::refract;
 use heliostat_scene::Rgb;
 
 /// What a sampled direction does at the surface.
@@ -36,5 +51,42 @@ impl BsdfSample {
     /// Whether no other way than sampling finds the direction.
     pub(crate) fn is_delta(&self) -> bool {
         self.pdf == f32::INFINITY
+    }
+}
+
+/// The closed list of surface models, at one point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Bsdf {
+    /// The physically based model.
+    Standard(StandardBsdf),
+}
+
+impl Bsdf {
+    /// The value, without mirrors and clear glass.
+    pub(crate) fn eval(&self, wo: Vec3, wi: Vec3) -> Rgb {
+        match self {
+            Self::Standard(bsdf) => bsdf.eval(wo, wi),
+        }
+    }
+
+    /// Density of `wi` among the directions that [`Self::sample`] draws, without mirrors and clear glass.
+    pub(crate) fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        match self {
+            Self::Standard(bsdf) => bsdf.pdf(wo, wi),
+        }
+    }
+
+    /// A direction; `None` where the numbers lead nowhere, for which light is 0.
+    pub(crate) fn sample(&self, wo: Vec3, u: Vec3) -> Option<BsdfSample> {
+        match self {
+            Self::Standard(bsdf) => bsdf.sample(wo, u),
+        }
+    }
+
+    /// About the share of light from all around that goes to the viewer.
+    pub(crate) fn albedo(&self, wo: Vec3) -> Rgb {
+        match self {
+            Self::Standard(bsdf) => bsdf.albedo(wo),
+        }
     }
 }

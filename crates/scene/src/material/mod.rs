@@ -1,6 +1,7 @@
 //! Materials: textured descriptions of how a surface answers light.
 
 mod input;
+mod metals;
 mod phong;
 mod standard;
 

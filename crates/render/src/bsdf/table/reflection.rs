@@ -1,0 +1,229 @@
+//! How much light rough boundaries reflect, once, for any curve of reflectance over the angle.
+
+use super::axis::{Place, grazing_axis, grazing_cos, node_width};
+use crate::bsdf::ggx::Ggx;
+use crate::bsdf::quadrature::gauss_legendre;
+use glam::{Vec2, Vec3};
+use heliostat_scene::Rgb;
+use std::sync::LazyLock;
+
+/// Nodes of a reflectance over the angle, at cosines `(k / (CURVE - 1))^2`.
+const CURVE: usize = 16;
+/// Nodes of the cosine of the viewer, even in its root.
+const COS: usize = 64;
+/// Nodes of the width.
+const WIDTH: usize = 33;
+/// Nodes of the cosine on the axis of grazing angles.
+const GRAZING: usize = 64;
+/// Nodes of the integrals over facets, around the normal (half of them, by symmetry) and away from it.
+const TURNS: usize = 24;
+const CAPS: usize = 24;
+
+/// A reflectance at the nodes of the table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Curve([Rgb; CURVE]);
+
+impl Curve {
+    /// Of a reflectance over the cosine.
+    pub(crate) fn new(reflectance: impl Fn(f32) -> Rgb) -> Self {
+        Self(std::array::from_fn(|k| reflectance(node_cos(k))))
+    }
+
+    fn sum(&self, weights: &[f32; CURVE]) -> Rgb {
+        self.0.iter().zip(weights).map(|(&value, &weight)| value * weight).sum()
+    }
+}
+
+fn node_cos(k: usize) -> f32 {
+    (k as f32 / (CURVE - 1) as f32).powi(2)
+}
+
+/// Weights by which a curve at its nodes gives its value between them: cubic convolution over the root of the cosine.
+///
+/// # Source
+/// Keys, "Cubic Convolution Interpolation for Digital Image Processing", 1981, equations 15 and 19.
+fn between_nodes(cos: f32) -> [f32; CURVE] {
+    let Place { index, share: s } = Place::even(cos.max(0.0).sqrt(), CURVE);
+    let (s2, s3) = (s * s, s * s * s);
+    let taps = [
+        -0.5 * s3 + s2 - 0.5 * s,
+        1.5 * s3 - 2.5 * s2 + 1.0,
+        -1.5 * s3 + 2.0 * s2 + 0.5 * s,
+        0.5 * s3 - 0.5 * s2,
+    ];
+    let mut weights = [0.0; CURVE];
+    for (k, tap) in taps.into_iter().enumerate() {
+        match (index + k).checked_sub(1) {
+            // The root of the cosine is squared again: the curve is even there.
+            None => weights[1] += tap,
+            Some(CURVE) => {
+                weights[CURVE - 1] += 3.0 * tap;
+                weights[CURVE - 2] -= 3.0 * tap;
+                weights[CURVE - 3] += tap;
+            }
+            Some(node) => weights[node] += tap,
+        }
+    }
+    weights
+}
+
+/// What is known of reflection at one width.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reflection {
+    alpha: f32,
+    width: Place,
+}
+
+impl Reflection {
+    /// At a width in `[0, 1]`; 0 for a mirror.
+    pub(crate) fn of(alpha: f32) -> Self {
+        Self { alpha, width: Place::width(alpha, WIDTH) }
+    }
+
+    /// The width.
+    pub(crate) fn alpha(&self) -> f32 {
+        self.alpha
+    }
+
+    /// Share of the light that facets which reflect all send on at once, for a viewer at an angle of cosine `cos`.
+    pub(crate) fn whole(&self, cos: f32) -> f32 {
+        let place = Place::even(grazing_axis(cos.max(0.0), self.alpha), GRAZING);
+        let mut sum = 0.0;
+        for (w, at_width) in self.width.pair() {
+            for (x, at_cos) in place.pair() {
+                sum += at_width * at_cos * TABLE.whole[w][x];
+            }
+        }
+        sum
+    }
+
+    /// The mean of [`Self::whole`] over the hemisphere, weighted by the cosine.
+    pub(crate) fn whole_mean(&self) -> f32 {
+        self.width.pair().into_iter().map(|(w, share)| share * TABLE.whole_mean[w]).sum()
+    }
+
+    /// Share of the light that facets with this reflectance send on at once.
+    pub(crate) fn albedo(&self, curve: &Curve, cos: f32) -> Rgb {
+        let place = Place::even(cos.max(0.0).sqrt(), COS);
+        let mut weights = [0.0; CURVE];
+        for (w, at_width) in self.width.pair() {
+            for (c, at_cos) in place.pair() {
+                let share = at_width * at_cos;
+                for (sum, weight) in weights.iter_mut().zip(&TABLE.angles[w][c]) {
+                    *sum += share * weight;
+                }
+            }
+        }
+        self.whole(cos) * curve.sum(&weights)
+    }
+
+    /// The mean of [`Self::albedo`] over the hemisphere, weighted by the cosine.
+    pub(crate) fn albedo_mean(&self, curve: &Curve) -> Rgb {
+        let mut weights = [0.0; CURVE];
+        for (w, share) in self.width.pair() {
+            for (sum, weight) in weights.iter_mut().zip(&TABLE.angles_mean[w]) {
+                *sum += share * weight;
+            }
+        }
+        curve.sum(&weights)
+    }
+}
+
+impl Reflection {
+    /// What is left, per unit of light that facets keep at first, of the light that they throw at each other until it leaves.
+    ///
+    /// # Source
+    /// Kulla, Conty, "Revisiting Physically Based Shading at Imageworks", 2017, pages 11 to 18; with the factor of Hill, "A
+    /// Multi-Faceted Exploration", 2018, for light that has met two facets at least.
+    pub(crate) fn between(&self, curve: &Curve) -> Rgb {
+        let (mean, whole) = (cosine_mean(curve), self.whole_mean());
+        mean * mean * whole / (Rgb::ONE - mean * (1.0 - whole))
+    }
+}
+
+/// The mean over the hemisphere, weighted by the cosine, of a reflectance over the cosine.
+pub(crate) fn cosine_mean(curve: &Curve) -> Rgb {
+    Reflection::of(0.0).albedo_mean(curve)
+}
+
+/// See [`Reflection`]; the first index is that of the width.
+struct Table {
+    whole: Vec<[f32; GRAZING]>,
+    whole_mean: Vec<f32>,
+    /// Weights of the nodes of a curve, which add up to 1.
+    angles: Vec<[[f32; CURVE]; COS]>,
+    angles_mean: Vec<[f32; CURVE]>,
+}
+
+static TABLE: LazyLock<Table> = LazyLock::new(|| {
+    let widths = || (0..WIDTH).map(|w| node_width(w, WIDTH));
+    let mut table = Table {
+        whole: widths().map(|alpha| std::array::from_fn(|x| whole_at(x, alpha))).collect(),
+        whole_mean: Vec::new(),
+        angles: widths().map(|alpha| std::array::from_fn(|c| angles_at(c, alpha))).collect(),
+        angles_mean: Vec::new(),
+    };
+    for alpha in widths() {
+        let (whole, angles) = means(alpha);
+        table.whole_mean.push(whole);
+        table.angles_mean.push(angles);
+    }
+    table
+});
+
+fn whole_at(x: usize, alpha: f32) -> f32 {
+    let cos = grazing_cos(x as f32 / (GRAZING - 1) as f32, alpha);
+    facets(cos, alpha).into_iter().map(|(_, seen)| seen).sum()
+}
+
+fn angles_at(c: usize, alpha: f32) -> [f32; CURVE] {
+    let cos = (c as f32 / (COS - 1) as f32).powi(2);
+    let weights = curve_weights(cos, alpha);
+    let sum: f32 = weights.iter().sum();
+    weights.map(|weight| weight / sum)
+}
+
+/// Weights of the nodes of a curve, in the light that is sent on at once.
+fn curve_weights(cos: f32, alpha: f32) -> [f32; CURVE] {
+    let mut weights = [0.0; CURVE];
+    for (cos, seen) in facets(cos, alpha) {
+        for (sum, weight) in weights.iter_mut().zip(between_nodes(cos)) {
+            *sum += seen * weight;
+        }
+    }
+    weights
+}
+
+/// Means over the hemisphere, weighted by the cosine.
+fn means(alpha: f32) -> (f32, [f32; CURVE]) {
+    let (mut whole, mut angles) = (0.0, [0.0; CURVE]);
+    for (x, weight) in gauss_legendre::<CAPS>() {
+        // Nodes crowd where the angle is grazing: the cosine is the square.
+        let (cos, weight) = (x * x, weight * 4.0 * x * x * x);
+        let weights = curve_weights(cos, alpha);
+        whole += weight * weights.iter().sum::<f32>();
+        for (sum, node) in angles.iter_mut().zip(weights) {
+            *sum += weight * node;
+        }
+    }
+    (whole, angles)
+}
+
+/// Nodes of the integral over the facets that a viewer sees: the cosine between the two, and the share that it counts,
+/// shadowing included.
+fn facets(cos: f32, alpha: f32) -> Vec<(f32, f32)> {
+    let ggx = Ggx::isotropic(alpha);
+    let wo = Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
+    let mut nodes = Vec::with_capacity(TURNS * CAPS);
+    for (y, weight) in gauss_legendre::<CAPS>() {
+        for turn in 0..TURNS {
+            let u = Vec2::new((turn as f32 + 0.5) / (2 * TURNS) as f32, y);
+            let h = ggx.visible(wo, u);
+            let cos = wo.dot(h);
+            let wi = 2.0 * cos * h - wo;
+            let seen = if wi.z > 0.0 { ggx.seen_from(wo, wi) } else { 0.0 };
+            nodes.push((cos.clamp(0.0, 1.0), weight * seen / TURNS as f32));
+        }
+    }
+    nodes
+}
