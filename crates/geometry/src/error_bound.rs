@@ -19,6 +19,9 @@ pub const UNIT_ROUNDOFF: f32 = f32::EPSILON * 0.5;
 /// drawn with rounding alone.
 pub const LEAST_WIDTH: f32 = 0.000_244_140_62;
 
+/// About how wrong the tables of how much light rough surfaces reflect may be; a layer that lets less pass is closed.
+pub const TABLE_ERROR: f32 = 0.001;
+
 /// Bound of the relative error of `n` rounded operations in a row: `n u / (1 - n u)`.
 #[inline]
 pub const fn gamma(n: u32) -> f32 {

@@ -107,6 +107,11 @@ impl Ggx {
         self.density(h) / (2.0 * (self.bound(wo) * wo.z + self.stretched(wo)))
     }
 
+    /// Value over density of `wi` by [`Self::visible_reflecting`], for facets that reflect all light.
+    pub(crate) fn reflecting_weight(&self, wo: Vec3, wi: Vec3) -> f32 {
+        wi.z * self.correlated(wo, wi) * (self.bound(wo) * wo.z + self.stretched(wo))
+    }
+
     /// Density of `h` by [`Self::visible`], where `cos` is its scalar product with `wo`.
     pub(crate) fn visible_pdf(&self, wo: Vec3, h: Vec3, cos: f32) -> f32 {
         2.0 * cos * self.density(h) / (wo.z + self.stretched(wo))

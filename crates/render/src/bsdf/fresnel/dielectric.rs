@@ -2,6 +2,7 @@
 
 use super::{Film, schlick};
 use heliostat_scene::Rgb;
+use std::f32::consts::FRAC_1_SQRT_2;
 
 /// What happens to light at a smooth boundary, unpolarised.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,7 +85,7 @@ impl Boundary {
         if exact.cos == 0.0 {
             return Rgb::ONE;
         }
-        let bare = self.affine().at(exact.reflectance, || schlick(cos));
+        let bare = self.bare().at(exact.reflectance, || schlick(cos));
         match self.film {
             None => bare,
             Some((share, film)) => {
@@ -94,14 +95,17 @@ impl Boundary {
         }
     }
 
-    /// The reflectance as a linear function of Fresnel's; a film is left out.
-    pub(crate) fn affine(&self) -> Affine {
+    /// Without a film.
+    fn bare(&self) -> Affine {
         Affine { least: normal_reflectance(self.eta), normal: self.normal, grazing: self.grazing }
     }
 
-    /// Whether there is a film.
-    pub(crate) fn has_film(&self) -> bool {
-        self.film.is_some()
+    /// The reflectance as a linear function of Fresnel's; about that, where there is a film.
+    pub(crate) fn affine(&self) -> Affine {
+        let Some((share, film)) = self.film else { return self.bare() };
+        // The cosine that halves the light from all around.
+        let normal = self.normal.lerp(film.reflectance(FRAC_1_SQRT_2, self.normal), share);
+        Affine { normal, grazing: self.grazing + (1.0 - self.grazing) * share, ..self.bare() }
     }
 }
 

@@ -5,7 +5,7 @@ use crate::bsdf::ggx::Ggx;
 use crate::bsdf::reflect::Facet;
 use crate::bsdf::sheen::Sheen;
 use crate::bsdf::standard::StandardPoint;
-use crate::bsdf::table::{Curve, Reflection, sheen_albedo};
+use crate::bsdf::table::{Curve, Reflection, sheen_albedo, sheen_scale};
 use glam::{Vec2, Vec3};
 use heliostat_geometry::OrthonormalFrame;
 use heliostat_scene::Rgb;
@@ -123,7 +123,7 @@ impl Coat {
 /// Standing fibres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fibres {
-    pub(super) color: Rgb,
+    color: Rgb,
     roughness: f32,
     sheen: Sheen,
 }
@@ -131,7 +131,8 @@ pub(super) struct Fibres {
 impl Fibres {
     fn new(point: &StandardPoint) -> Self {
         let roughness = point.sheen_roughness;
-        Self { color: point.sheen_color, roughness, sheen: Sheen::new(roughness) }
+        let color = sheen_scale(roughness) * point.sheen_color;
+        Self { color, roughness, sheen: Sheen::new(roughness) }
     }
 
     /// Share of the light along `w` that the brightest fibres send back.

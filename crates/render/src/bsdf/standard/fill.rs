@@ -16,6 +16,7 @@ use crate::bsdf::reflect::mirrored_down;
 use crate::bsdf::standard::StandardPoint;
 use crate::bsdf::table::{Curve, Reflection, cosine_mean};
 use glam::Vec3;
+use heliostat_geometry::error_bound;
 use heliostat_scene::Rgb;
 use std::f32::consts::FRAC_1_PI;
 
@@ -83,7 +84,7 @@ impl Fill {
         Self {
             reflection,
             facets: base.ggx.is_some().then(|| facet_fill(base, cover, &reflection, &face)),
-            matte: (base.matte_share() > 0.0).then(|| matte_fill(point, base, cover, &reflection, &face)),
+            matte: matte_fill(point, base, cover, &reflection, &face),
             glass: is_bent.then(|| GlassFill::new(base, &reflection)),
             face,
         }
@@ -163,15 +164,19 @@ fn matte_fill(
     cover: &Cover,
     reflection: &Reflection,
     face: &Face,
-) -> MatteFill {
+) -> Option<MatteFill> {
+    if base.matte_share() == 0.0 {
+        return None;
+    }
     let through = point.diffuse_transmission;
     let mean = covered_mean(cover, |cos| face.passed(reflection, cos), || face.passed_mean(reflection));
-    MatteFill {
+    // Under a mirror there is no light to scale.
+    (mean.max_element() > error_bound::TABLE_ERROR).then_some(MatteFill {
         share: base.matte_share(),
         up: Matte { color: (1.0 - through) * point.base_color, roughness: point.diffuse_roughness },
         down: through * point.diffuse_transmission_color,
-        mean: mean.max(Rgb::splat(f32::MIN_POSITIVE)),
-    }
+        mean: mean.max(Rgb::splat(error_bound::TABLE_ERROR)),
+    })
 }
 
 /// The mean over the hemisphere of a profile times what the cover lets pass; `bare` is that without cover.

@@ -10,7 +10,7 @@ mod cover;
 mod fill;
 mod glass_fill;
 mod point;
-mod view;
+pub(super) mod view;
 
 pub(crate) use point::StandardPoint;
 

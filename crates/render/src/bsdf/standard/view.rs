@@ -13,7 +13,7 @@ use heliostat_scene::Rgb;
 
 /// Ways of drawing a direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Way {
+pub(in crate::bsdf) enum Way {
     /// Reflected by the coat.
     Coat,
     /// Anywhere above: fibres have no lobe.
@@ -28,11 +28,11 @@ enum Way {
     Down,
 }
 
-const WAYS: [Way; 6] = [Way::Coat, Way::Fibres, Way::Reflected, Way::Passed, Way::Up, Way::Down];
+pub(in crate::bsdf) const WAYS: [Way; 6] = [Way::Coat, Way::Fibres, Way::Reflected, Way::Passed, Way::Up, Way::Down];
 
 /// A surface and who looks at it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct View<'b> {
+pub(in crate::bsdf) struct View<'b> {
     bsdf: &'b StandardBsdf,
     wo: Vec3,
     /// Share of the light along `wo` that the cover lets pass.
@@ -42,7 +42,7 @@ pub(super) struct View<'b> {
 }
 
 impl<'b> View<'b> {
-    pub(super) fn new(bsdf: &'b StandardBsdf, wo: Vec3) -> Self {
+    pub(in crate::bsdf) fn new(bsdf: &'b StandardBsdf, wo: Vec3) -> Self {
         let passed = bsdf.cover.passed(wo);
         let Sides { up, down } = bsdf.fill.albedo(&bsdf.cover, wo);
         let coat = bsdf.cover.coat.map_or(0.0, |coat| coat.share(wo));
@@ -55,12 +55,13 @@ impl<'b> View<'b> {
         Self { bsdf, wo, passed, shares }
     }
 
-    fn share(&self, way: Way) -> f32 {
+    /// Probability of a way.
+    pub(in crate::bsdf) fn share(&self, way: Way) -> f32 {
         self.shares[way as usize]
     }
 
     /// The value, and the density of `wi` in the mixture, both without mirrors and clear glass.
-    pub(super) fn answer(&self, wi: Vec3) -> (Rgb, f32) {
+    pub(in crate::bsdf) fn answer(&self, wi: Vec3) -> (Rgb, f32) {
         let is_seen = self.wo.z > 0.0 && wi.z != 0.0;
         match is_seen {
             false => (Rgb::ZERO, 0.0),
@@ -120,9 +121,14 @@ impl<'b> View<'b> {
     }
 
     /// Draws a direction: `u.z` says which way, the rest where.
-    pub(super) fn sample(&self, u: Vec3) -> Option<BsdfSample> {
+    pub(in crate::bsdf) fn sample(&self, u: Vec3) -> Option<BsdfSample> {
         let (way, rest) = self.choose(u.z)?;
-        let (bsdf, wo, at) = (self.bsdf, self.wo, u.truncate());
+        self.draw(way, rest, u.truncate())
+    }
+
+    /// Draws a direction by one of the ways; `rest` and `at` are numbers in `[0, 1)`.
+    pub(in crate::bsdf) fn draw(&self, way: Way, rest: f32, at: Vec2) -> Option<BsdfSample> {
+        let (bsdf, wo) = (self.bsdf, self.wo);
         let (wi, event) = match way {
             Way::Coat => {
                 let coat = bsdf.cover.coat.as_ref()?;

@@ -41,10 +41,11 @@ pub(super) fn node_width(index: usize, count: usize) -> f32 {
 /// From a cosine to an even axis that resolves angles as grazing as `alpha` is wide: there facets shadow each other most.
 pub(super) fn grazing_axis(cos: f32, alpha: f32) -> f32 {
     let sum = cos + alpha;
-    if sum > 0.0 { cos * (1.0 + alpha) / sum } else { 1.0 }
+    if sum > 0.0 { (cos * (1.0 + alpha) / sum).sqrt() } else { 1.0 }
 }
 
 /// The inverse of [`grazing_axis`].
 pub(super) fn grazing_cos(x: f32, alpha: f32) -> f32 {
+    let x = x * x;
     x * alpha / ((1.0 - x) + alpha)
 }

@@ -7,4 +7,4 @@ mod sheen;
 
 pub(crate) use interface::{Interface, Loss};
 pub(crate) use reflection::{Curve, Reflection, cosine_mean};
-pub(crate) use sheen::sheen_albedo;
+pub(crate) use sheen::{sheen_albedo, sheen_scale};

@@ -16,8 +16,8 @@ const WIDTH: usize = 33;
 /// Nodes of the cosine on the axis of grazing angles.
 const GRAZING: usize = 64;
 /// Nodes of the integrals over facets, around the normal (half of them, by symmetry) and away from it.
-const TURNS: usize = 24;
-const CAPS: usize = 24;
+const TURNS: usize = 16;
+const CAPS: usize = 32;
 
 /// A reflectance at the nodes of the table.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -218,10 +218,10 @@ fn facets(cos: f32, alpha: f32) -> Vec<(f32, f32)> {
     for (y, weight) in gauss_legendre::<CAPS>() {
         for turn in 0..TURNS {
             let u = Vec2::new((turn as f32 + 0.5) / (2 * TURNS) as f32, y);
-            let h = ggx.visible(wo, u);
+            let h = ggx.visible_reflecting(wo, u);
             let cos = wo.dot(h);
             let wi = 2.0 * cos * h - wo;
-            let seen = if wi.z > 0.0 { ggx.seen_from(wo, wi) } else { 0.0 };
+            let seen = if wi.z > 0.0 { ggx.reflecting_weight(wo, wi) } else { 0.0 };
             nodes.push((cos.clamp(0.0, 1.0), weight * seen / TURNS as f32));
         }
     }

@@ -26,6 +26,13 @@ pub(crate) fn sheen_albedo(roughness: f32, cos: f32) -> f32 {
     sum
 }
 
+/// By which the fibres of a roughness are made darker, so that they send back no more than all light from any angle.
+pub(crate) fn sheen_scale(roughness: f32) -> f32 {
+    let brightest = |row: &[f32; COS]| row.iter().fold(1.0, |a: f32, b| a.max(*b));
+    let row = Place::even(roughness, ROUGHNESS);
+    1.0 / row.pair().into_iter().map(|(r, share)| share * brightest(&TABLE[r])).sum::<f32>()
+}
+
 static TABLE: LazyLock<Vec<[f32; COS]>> = LazyLock::new(|| {
     let row = |r: usize| {
         let sheen = Sheen::new(r as f32 / (ROUGHNESS - 1) as f32);
