@@ -43,7 +43,41 @@ impl Ggx {
         (self.alpha.x * self.alpha.y).sqrt()
     }
 
-    fn is_isotropic(&self) -> bool {
+    /// A distribution of width `alpha`, drawn out along x by `strength` in `[0, 1]`.
+    pub(crate) fn stretched_by(alpha: f32, strength: f32) -> Self {
+        let along = alpha + (1.0 - alpha) * strength * strength;
+        Self { alpha: Vec2::new(along, alpha), tangent: Vec2::X }
+    }
+
+    /// By what strength [`Self::stretched_by`] gives the larger width.
+    pub(crate) fn strength(&self) -> f32 {
+        let room = 1.0 - self.alpha.y;
+        if room > 0.0 { ((self.alpha.x - self.alpha.y) / room).sqrt() } else { 0.0 }
+    }
+
+    /// Widths along the tangents; the first is the larger one.
+    pub(crate) fn alpha(&self) -> Vec2 {
+        self.alpha
+    }
+
+    /// The first tangent, in the tangent plane.
+    pub(crate) fn tangent(&self) -> Vec2 {
+        self.tangent
+    }
+
+    /// Width in the plane of the normal and `w`.
+    pub(crate) fn width_along(&self, w: Vec3) -> f32 {
+        (self.turned(w).truncate().normalize_or(Vec2::X) * self.alpha).length()
+    }
+
+    /// Angle between the first tangent and the plane of the normal and `w`, in `[0, pi / 2]`.
+    pub(crate) fn turn_of(&self, w: Vec3) -> f32 {
+        let flat = self.turned(w).truncate().abs();
+        flat.y.atan2(flat.x)
+    }
+
+    /// Whether all tangents are alike.
+    pub(crate) fn is_isotropic(&self) -> bool {
         self.alpha.x == self.alpha.y
     }
 

@@ -66,7 +66,7 @@ impl Coat {
         let ggx = Ggx::new(point.coat_roughness, 0.0, Vec2::X);
         let boundary = Boundary::new(point.coat_ior.max(1.0), true, 1.0, Rgb::ONE);
         let curve = Curve::new(|cos| boundary.reflectance(cos));
-        let reflection = Reflection::of(ggx.map_or(0.0, |ggx| ggx.mean_alpha()));
+        let reflection = Reflection::of(ggx);
         let between = reflection.between(&curve).x;
         let frame = OrthonormalFrame::around(normal);
         Self { weight: point.coat, frame, ggx, boundary, curve, reflection, between }
@@ -94,9 +94,9 @@ impl Coat {
 
     /// Share of the light along `w` that the coat sends back.
     fn kept(&self, w: Vec3) -> f32 {
-        let cos = w.dot(self.frame.z).abs().min(1.0);
-        let once = self.reflection.albedo(&self.curve, cos).x;
-        (self.weight * (once + self.between * (1.0 - self.reflection.whole(cos)))).clamp(0.0, 1.0)
+        let w = self.local(w);
+        let once = self.reflection.albedo(&self.curve, w).x;
+        (self.weight * (once + self.between * self.reflection.lost(w))).clamp(0.0, 1.0)
     }
 
     /// The value of a rough coat, with what facets throw at each other.
@@ -104,9 +104,8 @@ impl Coat {
         let (wo, wi) = (self.local(wo), self.local(wi));
         let (Some(ggx), Some(facet)) = (&self.ggx, Facet::between(wo, wi)) else { return 0.0 };
         let once = self.boundary.reflectance(facet.cos).x * facet.value(ggx, wo, wi);
-        let lost = |w: Vec3| (1.0 - self.reflection.whole(w.z)).max(0.0);
-        let mean = (1.0 - self.reflection.whole_mean()).max(f32::MIN_POSITIVE);
-        let again = self.between * lost(wo) * lost(wi) / mean * wi.z * FRAC_1_PI;
+        let lost = self.reflection.lost(wo) * self.reflection.lost(wi) / self.reflection.lost_mean();
+        let again = self.between * lost * wi.z * FRAC_1_PI;
         self.weight * (once + again)
     }
 

@@ -62,22 +62,22 @@ struct Face {
 }
 
 impl Face {
-    /// Share of the light at an angle of cosine `cos` that gets through.
-    fn passed(&self, reflection: &Reflection, cos: f32) -> Rgb {
-        let kept = reflection.albedo(&self.curve, cos) + self.between * (1.0 - reflection.whole(cos));
+    /// Share of the light along `w` that gets through.
+    fn passed(&self, reflection: &Reflection, w: Vec3) -> Rgb {
+        let kept = reflection.albedo(&self.curve, w) + self.between * reflection.lost(w);
         (Rgb::ONE - kept).clamp(Rgb::ZERO, Rgb::ONE)
     }
 
     fn passed_mean(&self, reflection: &Reflection) -> Rgb {
         let kept =
-            reflection.albedo_mean(&self.curve) + self.between * (1.0 - reflection.whole_mean());
+            reflection.albedo_mean(&self.curve) + self.between * reflection.lost_mean();
         (Rgb::ONE - kept).clamp(Rgb::ZERO, Rgb::ONE)
     }
 }
 
 impl Fill {
     pub(super) fn new(point: &StandardPoint, base: &Base, cover: &Cover) -> Self {
-        let reflection = Reflection::of(base.ggx.map_or(0.0, |ggx| ggx.mean_alpha()));
+        let reflection = Reflection::of(base.ggx);
         let curve = Curve::new(|cos| base.clear.reflectance(cos));
         let face = Face { curve, between: reflection.between(&curve) };
         let is_bent = base.passage == Passage::Bent && base.ggx.is_some();
@@ -92,23 +92,22 @@ impl Fill {
 
     /// The value.
     pub(super) fn value(&self, cover: &Cover, wo: Vec3, wi: Vec3) -> Rgb {
-        let (o, i) = (wo.z, wi.z.abs());
         let is_up = wi.z > 0.0;
         let passed = cover.passed(wo) * cover.passed(if is_up { wi } else { mirrored_down(wi) });
         let mut sum = Rgb::ZERO;
         if let Some(FacetFill { color, mean }) = &self.facets {
-            let profiles = (1.0 - self.reflection.whole(o)) * (1.0 - self.reflection.whole(i));
-            sum += if is_up { color.up } else { color.down } * (passed * profiles.max(0.0) / mean);
+            let profiles = self.reflection.lost(wo) * self.reflection.lost(wi);
+            sum += if is_up { color.up } else { color.down } * (passed * profiles / mean);
         }
         if let Some(matte) = &self.matte {
-            let face = |cos: f32| self.face.passed(&self.reflection, cos);
+            let face = |w: Vec3| self.face.passed(&self.reflection, w);
             let color = if is_up { matte.up.times_pi(wo, wi) } else { matte.down };
-            sum += matte.share * color * face(o) * face(i) * passed / matte.mean;
+            sum += matte.share * color * face(wo) * face(wi) * passed / matte.mean;
         }
         if let Some(glass) = &self.glass {
             sum += cover.passed(wo) * glass.times_pi(wo, wi);
         }
-        sum * (i * FRAC_1_PI)
+        sum * (wi.z.abs() * FRAC_1_PI)
     }
 
     /// What is sent to a viewer in all.
@@ -116,12 +115,12 @@ impl Fill {
         let passed = cover.passed(wo);
         let mut sum = Sides::default();
         if let Some(FacetFill { color, .. }) = &self.facets {
-            let profile = (1.0 - self.reflection.whole(wo.z)).max(0.0);
+            let profile = self.reflection.lost(wo);
             sum.up += profile * color.up;
             sum.down += profile * color.down;
         }
         if let Some(matte) = &self.matte {
-            let profile = matte.share * self.face.passed(&self.reflection, wo.z);
+            let profile = matte.share * self.face.passed(&self.reflection, wo);
             sum.up += profile * matte.up.color;
             sum.down += profile * matte.down;
         }
@@ -135,7 +134,7 @@ impl Fill {
 
     /// Share of the light along `wo` that gets through the boundary of clear matter.
     pub(super) fn face_passed(&self, wo: Vec3) -> Rgb {
-        self.face.passed(&self.reflection, wo.z)
+        self.face.passed(&self.reflection, wo)
     }
 }
 
@@ -153,8 +152,8 @@ fn facet_fill(base: &Base, cover: &Cover, reflection: &Reflection, face: &Face) 
             color.down += base.glass_share() * through;
         }
     }
-    let profile = |cos: f32| Rgb::splat(1.0 - reflection.whole(cos));
-    let mean = covered_mean(cover, profile, || Rgb::splat(1.0 - reflection.whole_mean()));
+    let profile = |w: Vec3| Rgb::splat(reflection.lost(w));
+    let mean = covered_mean(cover, reflection, profile, || Rgb::splat(reflection.lost_mean()));
     FacetFill { color, mean: mean.x.max(f32::MIN_POSITIVE) }
 }
 
@@ -169,7 +168,7 @@ fn matte_fill(
         return None;
     }
     let through = point.diffuse_transmission;
-    let mean = covered_mean(cover, |cos| face.passed(reflection, cos), || face.passed_mean(reflection));
+    let mean = covered_mean(cover, reflection, |w| face.passed(reflection, w), || face.passed_mean(reflection));
     // Under a mirror there is no light to scale.
     (mean.max_element() > error_bound::TABLE_ERROR).then_some(MatteFill {
         share: base.matte_share(),
@@ -180,10 +179,11 @@ fn matte_fill(
 }
 
 /// The mean over the hemisphere of a profile times what the cover lets pass; `bare` is that without cover.
-fn covered_mean(cover: &Cover, profile: impl Fn(f32) -> Rgb, bare: impl Fn() -> Rgb) -> Rgb {
-    if cover.is_none() {
-        return bare();
-    }
-    let at = |cos: f32| Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
-    cosine_mean(&Curve::new(|cos| cover.passed(at(cos)) * profile(cos)))
+fn covered_mean(
+    cover: &Cover,
+    reflection: &Reflection,
+    profile: impl Fn(Vec3) -> Rgb,
+    bare: impl Fn() -> Rgb,
+) -> Rgb {
+    if cover.is_none() { bare() } else { reflection.mean_around(|w| cover.passed(w) * profile(w)) }
 }

@@ -39,13 +39,35 @@ pub(super) fn node_width(index: usize, count: usize) -> f32 {
 }
 
 /// From a cosine to an even axis that resolves angles as grazing as `alpha` is wide: there facets shadow each other most.
+///
+/// The root of `alpha s^2 = cos (1 - s)`, over that of a cosine of 1.
 pub(super) fn grazing_axis(cos: f32, alpha: f32) -> f32 {
-    let sum = cos + alpha;
-    if sum > 0.0 { (cos * (1.0 + alpha) / sum).sqrt() } else { 1.0 }
+    let root = |cos: f32| {
+        let sum = cos + (cos * (cos + 4.0 * alpha)).sqrt();
+        if sum > 0.0 { 2.0 * cos / sum } else { 1.0 }
+    };
+    if cos > 0.0 { root(cos) / root(1.0) } else { 0.0 }
 }
 
-/// The inverse of [`grazing_axis`].
+/// The inverse of [`grazing_axis`], for a width above 0.
 pub(super) fn grazing_cos(x: f32, alpha: f32) -> f32 {
-    let x = x * x;
-    x * alpha / ((1.0 - x) + alpha)
+    if x >= 1.0 {
+        return 1.0;
+    }
+    let s = x * 2.0 / (1.0 + (1.0 + 4.0 * alpha).sqrt());
+    alpha * s * s / (1.0 - s)
+}
+
+/// Steps of [`grazing_mean`] between two nodes.
+const STEPS: usize = 16;
+
+/// The mean over the hemisphere, weighted by the cosine, of what is known at `count` even nodes of [`grazing_axis`] and
+/// linear between them: for each of many steps the node before, the way to the next one, and the weight.
+pub(super) fn grazing_mean(count: usize, alpha: f32) -> impl Iterator<Item = (Place, f32)> {
+    let last = (count - 1) * STEPS;
+    let area = move |k: usize| grazing_cos(k as f32 / last as f32, alpha).powi(2);
+    (0..last).map(move |k| {
+        let share = ((k % STEPS) as f32 + 0.5) / STEPS as f32;
+        (Place { index: k / STEPS, share }, area(k + 1) - area(k))
+    })
 }

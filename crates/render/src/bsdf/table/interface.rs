@@ -1,6 +1,6 @@
 //! How much light rough glass loses where facets shadow each other, in both directions.
 
-use super::axis::{Place, grazing_axis, grazing_cos, node_width};
+use super::axis::{Place, grazing_axis, grazing_cos, grazing_mean, node_width};
 use crate::bsdf::fresnel::{Affine, refraction};
 use crate::bsdf::ggx::Ggx;
 use crate::bsdf::quadrature::gauss_legendre;
@@ -11,11 +11,11 @@ use std::sync::LazyLock;
 
 /// Nodes of the cosine on the axis of grazing angles, of the width, and of the index of refraction.
 const GRAZING: usize = 32;
-const WIDTH: usize = 17;
-const INDEX: usize = 17;
+const WIDTH: usize = 25;
+const INDEX: usize = 25;
 /// Nodes of the integrals over facets, around the normal (half of them, by symmetry) and away from it.
-const TURNS: usize = 16;
-const CAPS: usize = 20;
+const TURNS: usize = 12;
+const CAPS: usize = 16;
 /// The largest index of refraction, or the inverse of the smallest, that the table tells from others.
 const LARGEST: f32 = 3.0;
 
@@ -30,9 +30,11 @@ pub(crate) struct Loss {
 
 impl Loss {
     /// For facets of this reflectance.
-    pub(crate) fn with(&self, affine: &Affine) -> Rgb {
+    ///
+    /// `scale` is by how much more is lost than at the same width along all tangents.
+    pub(crate) fn with(&self, affine: &Affine, scale: f32) -> Rgb {
         let (constant, factor) = affine.line();
-        (Rgb::splat(self.total) + self.constant * constant + self.factor * factor).clamp(Rgb::ZERO, Rgb::ONE)
+        (scale * (Rgb::splat(self.total) + self.constant * constant + self.factor * factor)).clamp(Rgb::ZERO, Rgb::ONE)
     }
 
     fn add(&mut self, other: &Self, weight: f32) {
@@ -75,7 +77,8 @@ impl Interface {
     /// The mean of [`Self::loss`] over the hemisphere, weighted by the cosine.
     pub(crate) fn loss_mean(&self) -> Loss {
         let mut loss = Loss::default();
-        self.each(|nodes, weight| loss.add(&nodes.mean, weight));
+        let square = self.alpha * self.alpha;
+        self.each(|nodes, weight| loss.add(&nodes.mean, weight * square));
         loss
     }
 
@@ -88,19 +91,24 @@ impl Interface {
     }
 }
 
-/// From an index of refraction in `[1, LARGEST]` to an even axis.
+/// From an index of refraction in `[1, LARGEST]` to an even axis: the cosine from which on light gets out of the denser side.
 fn index_axis(ior: f32) -> f32 {
-    (1.0 - 1.0 / ior) / (1.0 - 1.0 / LARGEST)
+    critical(ior) / critical(LARGEST)
 }
 
 /// The inverse of [`index_axis`].
 fn axis_index(x: f32) -> f32 {
-    1.0 / (1.0 - x * (1.0 - 1.0 / LARGEST))
+    1.0 / (1.0 - (x * critical(LARGEST)).powi(2)).sqrt()
+}
+
+fn critical(ior: f32) -> f32 {
+    (1.0 - 1.0 / (ior * ior)).max(0.0).sqrt()
 }
 
 /// Light lost at one width and index.
 struct Nodes {
     by_cos: [Loss; GRAZING],
+    /// Over the square of the width, as it grows.
     mean: Loss,
 }
 
@@ -117,13 +125,13 @@ static TABLE: LazyLock<[Vec<Vec<Nodes>>; 2]> = LazyLock::new(|| {
 });
 
 fn nodes(alpha: f32, eta: f32) -> Nodes {
-    let by_cos = std::array::from_fn(|x| {
-        lost(grazing_cos(x as f32 / (GRAZING - 1) as f32, alpha), alpha, eta)
-    });
+    let by_cos: [Loss; GRAZING] =
+        std::array::from_fn(|x| lost(grazing_cos(x as f32 / (GRAZING - 1) as f32, alpha), alpha, eta));
     let mut mean = Loss::default();
-    for (x, weight) in gauss_legendre::<CAPS>() {
-        // Nodes crowd where the angle is grazing: the cosine is the square.
-        mean.add(&lost(x * x, alpha, eta), weight * 4.0 * x * x * x);
+    for (place, area) in grazing_mean(GRAZING, alpha) {
+        for (x, share) in place.pair() {
+            mean.add(&by_cos[x], area * share / (alpha * alpha));
+        }
     }
     Nodes { by_cos, mean }
 }

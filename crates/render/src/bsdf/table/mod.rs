@@ -1,5 +1,6 @@
 //! Tables of how much light lobes send back: integrals without a formula, worked out at first use.
 
+mod anisotropic;
 mod axis;
 mod interface;
 mod reflection;

@@ -1,6 +1,7 @@
 //! How much light rough boundaries reflect, once, for any curve of reflectance over the angle.
 
-use super::axis::{Place, grazing_axis, grazing_cos, node_width};
+use super::anisotropic;
+use super::axis::{Place, grazing_axis, grazing_cos, grazing_mean, node_width};
 use crate::bsdf::ggx::Ggx;
 use crate::bsdf::quadrature::gauss_legendre;
 use glam::{Vec2, Vec3};
@@ -30,7 +31,9 @@ impl Curve {
     }
 
     fn sum(&self, weights: &[f32; CURVE]) -> Rgb {
-        self.0.iter().zip(weights).map(|(&value, &weight)| value * weight).sum()
+        let sum: Rgb = self.0.iter().zip(weights).map(|(&value, &weight)| value * weight).sum();
+        // Cubic weights swing below 0.
+        sum.max(Rgb::ZERO)
     }
 }
 
@@ -67,46 +70,57 @@ fn between_nodes(cos: f32) -> [f32; CURVE] {
     weights
 }
 
-/// What is known of reflection at one width.
+/// What is known of reflection by one distribution of facets.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reflection {
-    alpha: f32,
+    /// `None` for a mirror.
+    ggx: Option<Ggx>,
+    /// Where its mean width lies in the table.
     width: Place,
 }
 
 impl Reflection {
-    /// At a width in `[0, 1]`; 0 for a mirror.
-    pub(crate) fn of(alpha: f32) -> Self {
-        Self { alpha, width: Place::width(alpha, WIDTH) }
+    /// Of facets; `None` for a mirror.
+    pub(crate) fn of(ggx: Option<Ggx>) -> Self {
+        Self { ggx, width: Place::width(ggx.map_or(0.0, |ggx| ggx.mean_alpha()), WIDTH) }
     }
 
-    /// The width.
-    pub(crate) fn alpha(&self) -> f32 {
-        self.alpha
-    }
-
-    /// Share of the light that facets which reflect all send on at once, for a viewer at an angle of cosine `cos`.
-    pub(crate) fn whole(&self, cos: f32) -> f32 {
-        let place = Place::even(grazing_axis(cos.max(0.0), self.alpha), GRAZING);
+    /// Share of the light that facets which reflect all keep at first, and throw at each other, for a viewer along `w`.
+    pub(crate) fn lost(&self, w: Vec3) -> f32 {
+        let Some(ggx) = &self.ggx else { return 0.0 };
+        let cos = w.z.abs().min(1.0);
+        if !ggx.is_isotropic() {
+            return anisotropic::lost(ggx, w);
+        }
+        let place = Place::even(grazing_axis(cos, ggx.mean_alpha()), GRAZING);
         let mut sum = 0.0;
-        for (w, at_width) in self.width.pair() {
+        for (width, at_width) in self.width.pair() {
             for (x, at_cos) in place.pair() {
-                sum += at_width * at_cos * TABLE.whole[w][x];
+                sum += at_width * at_cos * TABLE.lost[width][x];
             }
         }
         sum
     }
 
-    /// The mean of [`Self::whole`] over the hemisphere, weighted by the cosine.
-    pub(crate) fn whole_mean(&self) -> f32 {
-        self.width.pair().into_iter().map(|(w, share)| share * TABLE.whole_mean[w]).sum()
+    /// The mean of [`Self::lost`] over the hemisphere, weighted by the cosine; above 0.
+    pub(crate) fn lost_mean(&self) -> f32 {
+        let Some(ggx) = &self.ggx else { return f32::MIN_POSITIVE };
+        if !ggx.is_isotropic() {
+            return anisotropic::lost_mean(ggx).max(f32::MIN_POSITIVE);
+        }
+        let mean: f32 = self.width.pair().into_iter().map(|(w, share)| share * TABLE.lost_mean[w]).sum();
+        (mean * ggx.mean_alpha().powi(2)).max(f32::MIN_POSITIVE)
     }
 
     /// Share of the light that facets with this reflectance send on at once.
-    pub(crate) fn albedo(&self, curve: &Curve, cos: f32) -> Rgb {
-        let place = Place::even(cos.max(0.0).sqrt(), COS);
+    pub(crate) fn albedo(&self, curve: &Curve, w: Vec3) -> Rgb {
+        let place = Place::even(w.z.abs().sqrt(), COS);
+        let width = match &self.ggx {
+            Some(ggx) if !ggx.is_isotropic() => Place::width(ggx.width_along(w), WIDTH),
+            _ => self.width,
+        };
         let mut weights = [0.0; CURVE];
-        for (w, at_width) in self.width.pair() {
+        for (w, at_width) in width.pair() {
             for (c, at_cos) in place.pair() {
                 let share = at_width * at_cos;
                 for (sum, weight) in weights.iter_mut().zip(&TABLE.angles[w][c]) {
@@ -114,11 +128,14 @@ impl Reflection {
                 }
             }
         }
-        self.whole(cos) * curve.sum(&weights)
+        (1.0 - self.lost(w)) * curve.sum(&weights)
     }
 
     /// The mean of [`Self::albedo`] over the hemisphere, weighted by the cosine.
     pub(crate) fn albedo_mean(&self, curve: &Curve) -> Rgb {
+        if self.ggx.is_some_and(|ggx| !ggx.is_isotropic()) {
+            return self.mean_around(|w| self.albedo(curve, w));
+        }
         let mut weights = [0.0; CURVE];
         for (w, share) in self.width.pair() {
             for (sum, weight) in weights.iter_mut().zip(&TABLE.angles_mean[w]) {
@@ -127,29 +144,41 @@ impl Reflection {
         }
         curve.sum(&weights)
     }
-}
 
-impl Reflection {
     /// What is left, per unit of light that facets keep at first, of the light that they throw at each other until it leaves.
     ///
     /// # Source
     /// Kulla, Conty, "Revisiting Physically Based Shading at Imageworks", 2017, pages 11 to 18; with the factor of Hill, "A
     /// Multi-Faceted Exploration", 2018, for light that has met two facets at least.
     pub(crate) fn between(&self, curve: &Curve) -> Rgb {
-        let (mean, whole) = (cosine_mean(curve), self.whole_mean());
-        mean * mean * whole / (Rgb::ONE - mean * (1.0 - whole))
+        let (mean, lost) = (cosine_mean(curve), self.lost_mean());
+        mean * mean * (1.0 - lost) / (Rgb::ONE - mean * lost)
+    }
+
+    /// The mean over the hemisphere, weighted by the cosine, of what depends on a direction as the facets do.
+    pub(crate) fn mean_around(&self, value: impl Fn(Vec3) -> Rgb) -> Rgb {
+        let at = |cos: f32, turn: Vec2| ((1.0 - cos * cos).max(0.0).sqrt() * turn).extend(cos);
+        match &self.ggx {
+            Some(ggx) if !ggx.is_isotropic() => {
+                // From one tangent to the other.
+                let turns = [0.196, 0.589, 0.982, 1.374].map(|angle| Vec2::from_angle(angle).rotate(ggx.tangent()));
+                cosine_mean(&Curve::new(|cos| turns.iter().map(|turn| value(at(cos, *turn))).sum::<Rgb>() / 4.0))
+            }
+            _ => cosine_mean(&Curve::new(|cos| value(at(cos, Vec2::X)))),
+        }
     }
 }
 
 /// The mean over the hemisphere, weighted by the cosine, of a reflectance over the cosine.
 pub(crate) fn cosine_mean(curve: &Curve) -> Rgb {
-    Reflection::of(0.0).albedo_mean(curve)
+    curve.sum(&TABLE.angles_mean[0])
 }
 
 /// See [`Reflection`]; the first index is that of the width.
 struct Table {
-    whole: Vec<[f32; GRAZING]>,
-    whole_mean: Vec<f32>,
+    lost: Vec<[f32; GRAZING]>,
+    /// Over the square of the width, as it grows.
+    lost_mean: Vec<f32>,
     /// Weights of the nodes of a curve, which add up to 1.
     angles: Vec<[[f32; CURVE]; COS]>,
     angles_mean: Vec<[f32; CURVE]>,
@@ -157,23 +186,24 @@ struct Table {
 
 static TABLE: LazyLock<Table> = LazyLock::new(|| {
     let widths = || (0..WIDTH).map(|w| node_width(w, WIDTH));
-    let mut table = Table {
-        whole: widths().map(|alpha| std::array::from_fn(|x| whole_at(x, alpha))).collect(),
-        whole_mean: Vec::new(),
-        angles: widths().map(|alpha| std::array::from_fn(|c| angles_at(c, alpha))).collect(),
-        angles_mean: Vec::new(),
+    let lost: Vec<[f32; GRAZING]> =
+        widths().map(|alpha| std::array::from_fn(|x| lost_at(x, alpha))).collect();
+    let mean = |(row, alpha): (&[f32; GRAZING], f32)| {
+        let at = |place: Place| place.pair().map(|(x, share)| share * row[x]).iter().sum::<f32>();
+        let sum: f32 = grazing_mean(GRAZING, alpha).map(|(place, area)| area * at(place)).sum();
+        sum / (alpha * alpha)
     };
-    for alpha in widths() {
-        let (whole, angles) = means(alpha);
-        table.whole_mean.push(whole);
-        table.angles_mean.push(angles);
+    Table {
+        lost_mean: lost.iter().zip(widths()).map(mean).collect(),
+        lost,
+        angles: widths().map(|alpha| std::array::from_fn(|c| angles_at(c, alpha))).collect(),
+        angles_mean: widths().map(angles_mean_at).collect(),
     }
-    table
 });
 
-fn whole_at(x: usize, alpha: f32) -> f32 {
+fn lost_at(x: usize, alpha: f32) -> f32 {
     let cos = grazing_cos(x as f32 / (GRAZING - 1) as f32, alpha);
-    facets(cos, alpha).into_iter().map(|(_, seen)| seen).sum()
+    facets(cos, alpha).into_iter().map(|(_, weight, seen)| weight * (1.0 - seen)).sum::<f32>().max(0.0)
 }
 
 fn angles_at(c: usize, alpha: f32) -> [f32; CURVE] {
@@ -186,32 +216,30 @@ fn angles_at(c: usize, alpha: f32) -> [f32; CURVE] {
 /// Weights of the nodes of a curve, in the light that is sent on at once.
 fn curve_weights(cos: f32, alpha: f32) -> [f32; CURVE] {
     let mut weights = [0.0; CURVE];
-    for (cos, seen) in facets(cos, alpha) {
+    for (cos, share, seen) in facets(cos, alpha) {
         for (sum, weight) in weights.iter_mut().zip(between_nodes(cos)) {
-            *sum += seen * weight;
+            *sum += share * seen * weight;
         }
     }
     weights
 }
 
-/// Means over the hemisphere, weighted by the cosine.
-fn means(alpha: f32) -> (f32, [f32; CURVE]) {
-    let (mut whole, mut angles) = (0.0, [0.0; CURVE]);
+/// The mean of [`curve_weights`] over the hemisphere, weighted by the cosine.
+fn angles_mean_at(alpha: f32) -> [f32; CURVE] {
+    let mut sum = [0.0; CURVE];
     for (x, weight) in gauss_legendre::<CAPS>() {
         // Nodes crowd where the angle is grazing: the cosine is the square.
         let (cos, weight) = (x * x, weight * 4.0 * x * x * x);
-        let weights = curve_weights(cos, alpha);
-        whole += weight * weights.iter().sum::<f32>();
-        for (sum, node) in angles.iter_mut().zip(weights) {
+        for (sum, node) in sum.iter_mut().zip(curve_weights(cos, alpha)) {
             *sum += weight * node;
         }
     }
-    (whole, angles)
+    sum
 }
 
-/// Nodes of the integral over the facets that a viewer sees: the cosine between the two, and the share that it counts,
-/// shadowing included.
-fn facets(cos: f32, alpha: f32) -> Vec<(f32, f32)> {
+/// Nodes of the integral over the facets that a viewer sees: the cosine between the two, the weight, and the light that the
+/// facet sends on at once.
+fn facets(cos: f32, alpha: f32) -> Vec<(f32, f32, f32)> {
     let ggx = Ggx::isotropic(alpha);
     let wo = Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
     let mut nodes = Vec::with_capacity(TURNS * CAPS);
@@ -222,7 +250,7 @@ fn facets(cos: f32, alpha: f32) -> Vec<(f32, f32)> {
             let cos = wo.dot(h);
             let wi = 2.0 * cos * h - wo;
             let seen = if wi.z > 0.0 { ggx.reflecting_weight(wo, wi) } else { 0.0 };
-            nodes.push((cos.clamp(0.0, 1.0), weight * seen / TURNS as f32));
+            nodes.push((cos.clamp(0.0, 1.0), weight / TURNS as f32, seen));
         }
     }
     nodes

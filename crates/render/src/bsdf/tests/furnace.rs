@@ -47,6 +47,12 @@ fn worst(bsdf: &StandardBsdf  ) -> (f32, f32) {
 #[test]
 fn bsdf_furnace_table() {
     let mut report = String::new();
+    let start = std::time::Instant::now();
+    crate::bsdf::table::Interface::of(0.5, 1.5).loss_mean();
+    println!("interface {:?}", start.elapsed());
+    let start = std::time::Instant::now();
+    crate::bsdf::table::Reflection::of(None).lost_mean();
+    println!("reflection {:?}", start.elapsed());
     for (name, change) in LOSSLESS {
         let _ = write!(report, "{name:26}");
         if std::env::var("ONLY").is_ok_and(|only| !name.contains(&only)) { continue; }
