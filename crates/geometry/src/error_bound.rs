@@ -12,6 +12,16 @@ use glam::{DMat3, DVec3, Mat3, Vec3, Vec3A};
 /// Half the distance between 1 and the next `f32`: the largest relative error of one rounded operation.
 pub const UNIT_ROUNDOFF: f32 = f32::EPSILON * 0.5;
 
+/// The least width of a distribution of microfacets that is not taken for a mirror, as the tangent of an angle: the square root
+/// of [`UNIT_ROUNDOFF`].
+///
+/// A half vector is known to a few roundings, which by this width is a few thousandths of the lobe; narrower ones would be
+/// drawn with rounding alone.
+pub const LEAST_WIDTH: f32 = 0.000_244_140_62;
+
+/// About how wrong the tables of how much light rough surfaces reflect may be; a layer that lets less pass is closed.
+pub const TABLE_ERROR: f32 = 0.001;
+
 /// Bound of the relative error of `n` rounded operations in a row: `n u / (1 - n u)`.
 #[inline]
 pub const fn gamma(n: u32) -> f32 {

@@ -1,5 +1,7 @@
 //! Materials at a point: the textured description becomes a few numbers.
 
+mod standard;
+
 use crate::texture_eval::{self, TexturePoint, uv_step};
 use glam::{Vec2, Vec3, Vec4};
 use heliostat_geometry::Hit;
@@ -92,9 +94,9 @@ impl MaterialEval<'_> {
         }
     }
 
-    /// The shading normal `ns`, bent by the relief of the material; unit, on the side of `ns`.
-    pub(crate) fn bent_normal(&self, material: &Material, hit: &Hit, ns: Vec3) -> Vec3 {
-        let bent = match material.relief {
+    /// The shading normal `ns`, bent by a relief; unit, on the side of `ns`.
+    pub(crate) fn bent_normal(&self, relief: Option<Relief>, hit: &Hit, ns: Vec3) -> Vec3 {
+        let bent = match relief {
             None => return ns,
             Some(Relief::Bump { texture, strength }) => self.bump(texture, strength, hit, ns),
             Some(Relief::Normal { texture, strength }) => self.normal_map(texture, strength, hit, ns),

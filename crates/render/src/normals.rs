@@ -5,7 +5,7 @@ use crate::phong::reflect;
 use crate::shading::towards;
 use glam::Vec3;
 use heliostat_geometry::Hit;
-use heliostat_scene::Material;
+use heliostat_scene::material::Relief;
 
 /// A mirror direction rises above the surface by at least this share of the viewer's height, and this sine at most.
 const LEAST_RISE: (f32, f32) = (0.9, 0.025);
@@ -26,14 +26,14 @@ pub(crate) struct Normals {
 }
 
 impl Normals {
-    /// Those of a hit of a ray in direction `dir`.
+    /// Those of a hit of a ray in direction `dir`, bent by a relief.
     #[inline]
-    pub(crate) fn new(eval: &MaterialEval<'_>, material: &Material, hit: &Hit, dir: Vec3) -> Self {
+    pub(crate) fn new(eval: &MaterialEval<'_>, relief: Option<Relief>, hit: &Hit, dir: Vec3) -> Self {
         let view = -dir.normalize();
         let enters = view.dot(hit.at.ng) >= 0.0;
         let side = if enters { 1.0 } else { -1.0 };
         let (ng, smooth) = (side * hit.at.ng, side * hit.ns);
-        let bent = side * eval.bent_normal(material, hit, hit.ns);
+        let bent = side * eval.bent_normal(relief, hit, hit.ns);
         let ns = if bent == ng { ng } else { lifted(ng, towards(bent, view), view) };
         Self { view, enters, ng, smooth, ns }
     }

@@ -111,8 +111,12 @@ impl<'a> PathPoint<'a> {
         time: f32,
     ) -> Self {
         let Covering { material, eval } = covering;
-        let normals = Normals::new(eval, material, &surface.hit, dir);
+        let normals = Normals::new(eval, material.relief, &surface.hit, dir);
         let frame = frame_along(normals.ns, surface.hit.dpdu);
+        let coat_normal = match material.surface.coat_relief() {
+            None => Vec3::Z,
+            Some(relief) => frame.to_local(Normals::new(eval, Some(relief), &surface.hit, dir).ns),
+        };
         let sides = [normals.ng, normals.smooth];
         Self {
             surface,
@@ -122,7 +126,7 @@ impl<'a> PathPoint<'a> {
             frame,
             wo: frame.to_local(normals.view),
             time,
-            bsdf: Bsdf::new(&material.surface, eval, surface.color, normals.enters),
+            bsdf: Bsdf::new(&material.surface, eval, surface.color, normals.enters, coat_normal),
         }
     }
 
@@ -132,7 +136,7 @@ impl<'a> PathPoint<'a> {
         FirstHit {
             p: hit.at.p,
             normal: self.normals.ns,
-            albedo: self.bsdf.albedo(),
+            albedo: self.bsdf.albedo(self.wo),
             uv: hit.uv,
             object: Some(object),
             material: Some(material),

@@ -62,7 +62,7 @@ impl<'a> ShadingPoint<'a> {
         let enters = view.dot(surface.hit.at.ng) >= 0.0;
         let side = if enters { 1.0 } else { -1.0 };
         let (ng, smooth) = (side * surface.hit.at.ng, side * surface.hit.ns);
-        let bent = side * eval.bent_normal(material, &surface.hit, surface.hit.ns);
+        let bent = side * eval.bent_normal(material.relief, &surface.hit, surface.hit.ns);
         Self {
             surface,
             enters,

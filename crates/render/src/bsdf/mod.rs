@@ -8,10 +8,24 @@
 //! Radiance is basic radiance, divided by the square of the index of refraction where it is: refraction leaves that as it is,
 //! and in free space it is radiance.
 
+mod diffuse;
+mod fresnel;
+mod ggx;
+mod glass;
 mod phong;
+mod quadrature;
+mod reflect;
+mod sheen;
+mod standard;
+mod table;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use standard::{StandardBsdf, StandardPoint};
 
 use crate::material_eval::MaterialEval;
 use glam::{Vec2, Vec3};
+use glass::refract;
 use heliostat_scene::Rgb;
 use heliostat_scene::material::Surface;
 use phong::PhongBsdf;
@@ -48,22 +62,34 @@ impl BsdfSample {
 }
 
 /// The closed list of surfaces at a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) enum Bsdf {
     /// The report's surface.
     Phong(PhongBsdf),
+    /// The physically based surface.
+    Standard(StandardBsdf),
 }
 
 impl Bsdf {
-    /// A surface where a ray meets it, from outside if it `enters`. A vertex colour tints what is matte.
+    /// A surface where a ray meets it, from outside if it `enters`. A vertex colour tints what is matte; `coat_normal` is the
+    /// normal of a coat in the local frame.
     #[inline]
     pub(crate) fn new(
         surface: &Surface,
         eval: &MaterialEval<'_>,
         vertex_color: Option<Rgb>,
         enters: bool,
+        coat_normal: Vec3,
     ) -> Self {
-        Self::Phong(PhongBsdf::new(&eval.phong(&surface.phong(), vertex_color), enters))
+        match surface {
+            Surface::Standard(standard) => {
+                let point = eval.standard(standard, vertex_color);
+                Self::Standard(StandardBsdf::new(&point, enters, coat_normal))
+            }
+            Surface::Phong(_) | Surface::Unlit(_) => {
+                Self::Phong(PhongBsdf::new(&eval.phong(&surface.phong(), vertex_color), enters))
+            }
+        }
     }
 
     /// Whether it scatters light into more than a few directions: only then lights are worth asking.
@@ -71,6 +97,7 @@ impl Bsdf {
     pub(crate) fn scatters(&self) -> bool {
         match self {
             Self::Phong(phong) => phong.scatters(),
+            Self::Standard(standard) => standard.scatters(),
         }
     }
 
@@ -79,6 +106,7 @@ impl Bsdf {
     pub(crate) fn eval(&self, wo: Vec3, wi: Vec3) -> (Rgb, f32) {
         match self {
             Self::Phong(phong) => phong.eval(wo, wi),
+            Self::Standard(standard) => standard.eval(wo, wi),
         }
     }
 
@@ -88,6 +116,7 @@ impl Bsdf {
     pub(crate) fn sample(&self, wo: Vec3, layer: f32, u: Vec2) -> Option<BsdfSample> {
         match self {
             Self::Phong(phong) => phong.sample(wo, layer, u),
+            Self::Standard(standard) => standard.sample(wo, u.extend(layer)),
         }
     }
 
@@ -96,13 +125,15 @@ impl Bsdf {
     pub(crate) fn straight(&self, wo: Vec3) -> Rgb {
         match self {
             Self::Phong(phong) => phong.straight(wo),
+            Self::Standard(standard) => standard.straight(wo),
         }
     }
 
     /// The share of the light that it sends on, about; per channel in `[0, 1]`.
-    pub(crate) fn albedo(&self) -> Rgb {
+    pub(crate) fn albedo(&self, wo: Vec3) -> Rgb {
         match self {
             Self::Phong(phong) => phong.albedo(),
+            Self::Standard(standard) => standard.albedo(wo),
         }
     }
 }

@@ -120,8 +120,8 @@ impl Filter<'_> {
         if opacity == 0.0 || !material.surface.passes_straight() {
             return (open, Rgb::ZERO);
         }
-        let normals = Normals::new(&eval, material, &surface.hit, ray.dir);
-        let bsdf = Bsdf::new(&material.surface, &eval, surface.color, normals.enters);
+        let normals = Normals::new(&eval, material.relief, &surface.hit, ray.dir);
+        let bsdf = Bsdf::new(&material.surface, &eval, surface.color, normals.enters, Vec3::Z);
         let cos = normals.ns.dot(normals.view);
         let view = Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
         (open + opacity * bsdf.straight(view), material.surface.absorption())

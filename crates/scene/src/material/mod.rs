@@ -1,6 +1,7 @@
 //! Materials: textured descriptions of how a surface answers light.
 
 mod input;
+mod metals;
 mod phong;
 mod standard;
 
@@ -85,6 +86,14 @@ impl Surface {
             Self::Phong(phong) => phong.absorption,
             Self::Standard(standard) if !standard.thin_walled => standard.absorption,
             Self::Standard(_) | Self::Unlit(_) => Rgb::ZERO,
+        }
+    }
+
+    /// What bends the normal of its coat alone.
+    pub fn coat_relief(&self) -> Option<Relief> {
+        match self {
+            Self::Standard(standard) => standard.coat_relief,
+            Self::Phong(_) | Self::Unlit(_) => None,
         }
     }
 

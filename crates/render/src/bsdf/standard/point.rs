@@ -1,0 +1,38 @@
+//! The physically based surface at one point.
+
+use glam::Vec2;
+use heliostat_scene::Rgb;
+use heliostat_scene::material::Conductor;
+
+/// The numbers of [`heliostat_scene::material::Standard`] at one point, each within its range; see there for their meaning.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct StandardPoint {
+    pub(crate) base_color: Rgb,
+    pub(crate) diffuse_roughness: f32,
+    pub(crate) metalness: f32,
+    pub(crate) conductor: Option<Conductor>,
+    pub(crate) roughness: f32,
+    pub(crate) specular: f32,
+    pub(crate) specular_color: Rgb,
+    pub(crate) ior: f32,
+    pub(crate) anisotropy: f32,
+    /// Unit direction in the tangent plane along which highlights are drawn out.
+    pub(crate) anisotropy_direction: Vec2,
+    pub(crate) transmission: f32,
+    pub(crate) thin_walled: bool,
+    pub(crate) absorption: Rgb,
+    pub(crate) dispersion: f32,
+    pub(crate) diffuse_transmission: f32,
+    pub(crate) diffuse_transmission_color: Rgb,
+    pub(crate) coat: f32,
+    pub(crate) coat_roughness: f32,
+    pub(crate) coat_ior: f32,
+    pub(crate) sheen_color: Rgb,
+    pub(crate) sheen_roughness: f32,
+    /// Share of the surface under the film.
+    pub(crate) film: f32,
+    pub(crate) film_ior: f32,
+    /// Thickness of the film in nanometres.
+    pub(crate) film_thickness: f32,
+    pub(crate) emission: Rgb,
+}

@@ -1,0 +1,151 @@
+//! Draws against their density: counts in bins, the sum of the density, and weights.
+
+use super::*;
+use std::f64::consts::PI;
+
+/// Bins of the sphere: heights by turns.
+const HEIGHTS: usize = 24;
+const TURNS: usize = 24;
+/// Draws of each test.
+const DRAWS: u32 = 40_000;
+/// Nodes of the integral of the density in a bin, along either axis.
+const NODES: usize = 24;
+/// Chance of a test to fail by itself, all of them together.
+const SIGNIFICANCE: f64 = 1e-4;
+
+/// What draws do, or should do: the share in each bin, and the share that has no density.
+struct Shares {
+    bins: Vec<f64>,
+    rest: f64,
+}
+
+/// Counted, with numbers that do not know of each other.
+fn counted(bsdf: &StandardBsdf, wo: Vec3, seed: u64) -> Shares {
+    let mut shares = Shares { bins: vec![0.0; HEIGHTS * TURNS], rest: 0.0 };
+    let mut state = seed;
+    let mut next = move || {
+        // SplitMix64.
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 40) as f32 / (1_u64 << 24) as f32
+    };
+    for _ in 0..DRAWS {
+        match bsdf.sample(wo, Vec3::new(next(), next(), next())) {
+            Some(sample) if !sample.is_delta() => {
+                let height = ((0.5 + 0.5 * sample.wi.z) * HEIGHTS as f32) as usize;
+                let turn = (sample.wi.y.atan2(sample.wi.x) / TAU).rem_euclid(1.0) * TURNS as f32;
+                let bin = height.min(HEIGHTS - 1) * TURNS + (turn as usize).min(TURNS - 1);
+                shares.bins[bin] += 1.0 / f64::from(DRAWS);
+            }
+            _ => shares.rest += 1.0 / f64::from(DRAWS),
+        }
+    }
+    shares
+}
+
+/// Integrated from the density.
+fn expected(bsdf: &StandardBsdf, wo: Vec3) -> Shares {
+    let mut bins = vec![0.0; HEIGHTS * TURNS];
+    let view = crate::bsdf::standard::view::View::new(bsdf, wo);
+    for (bin, share) in bins.iter_mut().enumerate() {
+        let (height, turn) = (bin / TURNS, bin % TURNS);
+        for k in 0..NODES * NODES {
+            let z = (height as f32 + ((k / NODES) as f32 + 0.5) / NODES as f32) / HEIGHTS as f32;
+            let at = (turn as f32 + ((k % NODES) as f32 + 0.5) / NODES as f32) / TURNS as f32;
+            *share += f64::from(view.answer(direction(2.0 * z - 1.0, at)).1);
+        }
+        *share *= 4.0 * PI / (HEIGHTS * TURNS * NODES * NODES) as f64;
+    }
+    let rest = 1.0 - bins.iter().sum::<f64>();
+    Shares { bins, rest }
+}
+
+/// Chance to deviate at least so far, for this many degrees of freedom: Wilson and Hilferty's approximation, 1931.
+fn chance(chi_square: f64, freedom: f64) -> f64 {
+    let spread = 2.0 / (9.0 * freedom);
+    let normal = ((chi_square / freedom).cbrt() - (1.0 - spread)) / spread.sqrt();
+    // The tail of the normal distribution, by Mills' ratio where it is thin: Abramowitz and Stegun, 26.2.17.
+    let t = 1.0 / (1.0 + 0.231_641_9 * normal.abs());
+    let poly = t
+        * (0.319_381_530
+            + t * (-0.356_563_782 + t * (1.781_477_937 + t * (-1.821_255_978 + t * 1.330_274_429))));
+    let tail = poly * (-0.5 * normal * normal).exp() / (2.0 * PI).sqrt();
+    if normal > 0.0 { tail } else { 1.0 - tail }
+}
+
+/// Chance of the counts, where bins that expect less than five are put together.
+fn chance_of(counted: &Shares, expected: &Shares) -> f64 {
+    let n = f64::from(DRAWS);
+    let mut pairs: Vec<(f64, f64)> = expected
+        .bins
+        .iter()
+        .copied()
+        .zip(counted.bins.iter().copied())
+        .map(|(e, c)| (n * e, n * c))
+        .collect();
+    pairs.push((n * expected.rest.max(0.0), n * counted.rest));
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (mut sum, mut bins, mut pool) = (0.0, 0.0, (0.0, 0.0));
+    for (e, c) in pairs {
+        pool = (pool.0 + e, pool.1 + c);
+        if pool.0 >= 5.0 {
+            sum += (pool.1 - pool.0) * (pool.1 - pool.0) / pool.0;
+            bins += 1.0;
+            pool = (0.0, 0.0);
+        }
+    }
+    if bins < 2.0 { 1.0 } else { chance(sum, bins - 1.0) }
+}
+
+#[test]
+fn bsdf_draws_follow_their_density() {
+    let roughness = [0.4, 0.7, 1.0];
+    let cosines = [0.95, 0.5, 0.15];
+    let tests = LOSSLESS.len() * roughness.len() * cosines.len() * 2;
+    // Sidak's share of the chance for each test.
+    let level = 1.0 - (1.0 - SIGNIFICANCE).powf(1.0 / tests as f64);
+    let (mut worst, mut widest, mut seed) = (1.0_f64, 0.0_f64, 0);
+    // Facets hardly bend light there: the lobe is too narrow for the nodes of the integral.
+    for (name, change) in LOSSLESS.iter().filter(|(name, _)| *name != "glass, ior 1.05") {
+        for (roughness, cos) in roughness.into_iter().flat_map(|r| cosines.map(|cos| (r, cos))) {
+            for is_outside in [true, false] {
+                seed += 1;
+                let point = rough(*change, roughness);
+                let bsdf = StandardBsdf::new(&point, is_outside, Vec3::new(0.28, 0.0, 0.96));
+                let (counted, expected) = (counted(&bsdf, viewer(cos), seed), expected(&bsdf, viewer(cos)));
+                let chance = chance_of(&counted, &expected);
+                let gap = counted.rest - expected.rest;
+                (worst, widest) = (worst.min(chance), widest.max(gap.abs()));
+                assert!(
+                    chance > level,
+                    "{name} {roughness} {cos} {is_outside}: chance {chance:e}, rest {gap}"
+                );
+                assert!(
+                    gap.abs() < 0.015,
+                    "{name} {roughness} {cos} {is_outside}: density adds up to {gap} more"
+                );
+            }
+        }
+    }
+    println!("{tests} tests: least chance {worst:e}, level {level:e}, widest gap {widest}");
+}
+
+#[test]
+fn bsdf_weight_is_value_over_density() {
+    let mut worst = 0.0_f32;
+    for (name, change) in LOSSLESS {
+        for roughness in ROUGHNESS {
+            let bsdf = outside(&rough(*change, roughness));
+            for (u, cos) in lattice(256).zip(COSINES.into_iter().cycle()) {
+                let wo = viewer(cos);
+                let Some(sample) = bsdf.sample(wo, u).filter(|sample| !sample.is_delta()) else { continue };
+                assert_eq!(sample.pdf, bsdf.pdf(wo, sample.wi), "{name} {roughness}");
+                let error = (sample.weight * sample.pdf - bsdf.eval(wo, sample.wi)).abs().max_element();
+                worst = worst.max(error / (sample.weight.max_element() * sample.pdf).max(f32::MIN_POSITIVE));
+            }
+        }
+    }
+    assert!(worst < 1e-6, "{worst}");
+}
