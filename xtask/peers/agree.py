@@ -1,0 +1,89 @@
+"""Whether Heliostat and Mitsuba 3 agree: means of every channel, and a Z-test in every pixel.
+
+    python agree.py HELIOSTAT [--scene NAME] [--runs 16] [--samples 64] [--size 128] [--mesh OBJ --image HDR] [--out FOLDER]
+
+Both render each scene so many times with seeds of their own. The mean over the runs has a variance that the runs tell
+themselves; pixels agree where Welch's test says so at 1 % for the whole picture (Sidak's correction), as Mitsuba's own tests
+ask. Needs `pip install mitsuba numpy scipy`, and for variant llvm_ad_rgb an LLVM (`DRJIT_LIBLLVM_PATH`).
+"""
+
+import argparse
+import pathlib
+import subprocess
+import sys
+
+import mitsuba as mi
+
+ARGS = argparse.ArgumentParser()
+ARGS.add_argument("heliostat")
+ARGS.add_argument("--scene", default="")
+ARGS.add_argument("--runs", type=int, default=16)
+ARGS.add_argument("--samples", type=int, default=64)
+ARGS.add_argument("--size", type=int, default=128)
+ARGS.add_argument("--mesh")
+ARGS.add_argument("--image")
+ARGS.add_argument("--integrator", default="path")
+ARGS.add_argument("--variant", default="llvm_ad_rgb")
+ARGS.add_argument("--out", default="out/agree")
+args = ARGS.parse_args()
+mi.set_variant(args.variant)
+
+import numpy as np
+from scipy import stats
+
+from scenes import named
+from to_heliostat import to_toml
+from to_mitsuba import to_mitsuba
+
+out = pathlib.Path(args.out)
+out.mkdir(parents=True, exist_ok=True)
+size = [args.size, args.size]
+
+
+def ours(name, scene):
+    """The pictures of all runs."""
+    pictures = []
+    for seed in range(args.runs):
+        file, picture = out / f"{name}.toml", out / f"{name}.exr"
+        file.write_text(to_toml(scene, size, args.samples, seed, args.integrator))
+        command = [args.heliostat, "render", str(file), "-o", str(picture), "--progress", "none"]
+        subprocess.run(command, check=True)
+        pictures.append(np.array(mi.Bitmap(str(picture)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32)))
+    return np.array(pictures, dtype=np.float64)
+
+
+def theirs(scene):
+    """The same of Mitsuba."""
+    integrator = {"type": "path", "max_depth": 65, "rr_depth": 8}
+    world = to_mitsuba(scene, size, integrator)
+    return np.array(
+        [np.array(mi.render(world, spp=args.samples, seed=1000 + run)) for run in range(args.runs)], dtype=np.float64
+    )
+
+
+def picture(name, values):
+    mi.util.write_bitmap(str(out / name), mi.Bitmap(values.astype(np.float32)))
+
+
+def report(name, a, b):
+    """One line; whether they agree."""
+    means = a.mean(axis=(0, 1, 2)) / b.mean(axis=(0, 1, 2)) - 1
+    spread = lambda x: x.mean(axis=(1, 2)).std(axis=0, ddof=1) / np.sqrt(len(x)) / x.mean(axis=(0, 1, 2))
+    p = np.nan_to_num(stats.ttest_ind(a, b, axis=0, equal_var=False).pvalue, nan=1.0)
+    inside = np.mean(p > 1 - (1 - 0.01) ** (1 / p[..., 0].size))
+    plain = np.mean(p > 0.01)
+    picture(f"{name}_ours.png", a.mean(axis=0))
+    picture(f"{name}_theirs.png", b.mean(axis=0))
+    picture(f"{name}_p.png", np.minimum(p, 1))
+    shown = " ".join(f"{100 * x:+.3f} %" for x in means)
+    error = " ".join(f"{100 * x:.3f}" for x in np.hypot(spread(a), spread(b)))
+    print(f"{name}: means {shown} (deviation {error}); {100 * inside:.2f} % of pixels inside, {100 * plain:.2f} % uncorrected")
+    return np.all(np.abs(means) < 0.005) and inside >= 0.995
+
+
+agree = [
+    report(name, ours(name, scene), theirs(scene))
+    for name, scene in named(args.mesh, args.image).items()
+    if args.scene in name
+]
+sys.exit(0 if all(agree) else 1)
