@@ -1,6 +1,6 @@
 //! A surface point as paths see it: how it scatters light, and which way goes on from it.
 
-use crate::bsdf::{Bsdf, BsdfSample, Event};
+use crate::bsdf::{Bsdf, BsdfSample, Event, View};
 use crate::counters::RayCounters;
 use crate::horizon::Horizon;
 use crate::integrator::FirstHit;
@@ -17,6 +17,7 @@ use heliostat_scene::{Material, MaterialId, Rgb};
 /// A hit on an object whose material is not evaluated yet.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Covering<'a> {
+    id: MaterialId,
     material: &'a Material,
     eval: MaterialEval<'a>,
 }
@@ -33,7 +34,7 @@ pub(crate) struct PathPoint<'a> {
     /// Direction to the viewer in the frame.
     wo: Vec3,
     time: f32,
-    pub(crate) bsdf: Bsdf,
+    view: View<'a>,
 }
 
 /// A way on from a point.
@@ -68,7 +69,7 @@ impl<'a> Covering<'a> {
         let scene = world.scene();
         let at = TexturePoint { uv: surface.hit.uv, local: surface.local };
         let eval = MaterialEval { textures: &scene.textures, at };
-        Self { material: &scene.materials[material.index()], eval }
+        Self { id: material, material: &scene.materials[material.index()], eval }
     }
 
     /// Coverage in `[0, 1]`.
@@ -101,22 +102,28 @@ impl<'a> Covering<'a> {
 }
 
 impl<'a> PathPoint<'a> {
-    /// The point where a ray in direction `dir` met what is covered.
+    /// The point where a ray in direction `dir` met what is covered. What must be worked out for this point stays in `room`.
     #[inline]
     pub(crate) fn new(
-        world: &World<'a>,
+        world: &'a World<'_>,
         covering: &Covering<'a>,
         surface: &'a SurfaceHit,
         dir: Vec3,
         time: f32,
+        room: &'a mut Option<Bsdf>,
     ) -> Self {
-        let Covering { material, eval } = covering;
+        let Covering { id, material, eval } = covering;
         let normals = Normals::new(eval, material.relief, &surface.hit, dir);
         let frame = frame_along(normals.ns, surface.hit.dpdu);
-        let coat_normal = match material.surface.coat_relief() {
-            None => Vec3::Z,
-            Some(relief) => frame.to_local(Normals::new(eval, Some(relief), &surface.hit, dir).ns),
-        };
+        let wo = frame.to_local(normals.view);
+        let known = world.known_bsdfs().get(*id, normals.enters).filter(|_| surface.color.is_none());
+        let bsdf = known.unwrap_or_else(|| {
+            let coat_normal = match material.surface.coat_relief() {
+                None => Vec3::Z,
+                Some(relief) => frame.to_local(Normals::new(eval, Some(relief), &surface.hit, dir).ns),
+            };
+            room.insert(Bsdf::new(&material.surface, eval, surface.color, normals.enters, coat_normal))
+        });
         let sides = [normals.ng, normals.smooth];
         Self {
             surface,
@@ -124,9 +131,9 @@ impl<'a> PathPoint<'a> {
             normals,
             horizon: Horizon::new(world, surface, sides, !normals.enters, time),
             frame,
-            wo: frame.to_local(normals.view),
+            wo,
             time,
-            bsdf: Bsdf::new(&material.surface, eval, surface.color, normals.enters, coat_normal),
+            view: bsdf.seen_from(wo),
         }
     }
 
@@ -136,11 +143,17 @@ impl<'a> PathPoint<'a> {
         FirstHit {
             p: hit.at.p,
             normal: self.normals.ns,
-            albedo: self.bsdf.albedo(self.wo),
+            albedo: self.view.albedo(),
             uv: hit.uv,
             object: Some(object),
             material: Some(material),
         }
+    }
+
+    /// Whether lights are worth asking.
+    #[inline]
+    pub(crate) fn scatters(&self) -> bool {
+        self.view.scatters()
     }
 
     /// From where lights are asked.
@@ -158,14 +171,14 @@ impl<'a> PathPoint<'a> {
         if share == 0.0 {
             return (Rgb::ZERO, 0.0);
         }
-        let (value, pdf) = self.bsdf.eval(self.wo, wi);
+        let (value, pdf) = self.view.eval(wi);
         (share * value, pdf)
     }
 
     /// A way on, by random numbers for the layer and the direction; `None` where the light is lost.
     #[inline]
     pub(crate) fn sample(&self, passing: &PassingRay, layer: f32, u: Vec2) -> Option<Onward> {
-        let mut sample = self.bsdf.sample(self.wo, layer, u)?;
+        let mut sample = self.view.sample(layer, u)?;
         let dir = self.frame.to_world(sample.wi);
         if sample.is_delta() {
             return Some(self.smooth_way(passing, sample, dir));

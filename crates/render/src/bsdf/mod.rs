@@ -12,6 +12,7 @@ mod diffuse;
 mod fresnel;
 mod ggx;
 mod glass;
+mod known;
 mod phong;
 mod quadrature;
 mod reflect;
@@ -21,6 +22,8 @@ mod table;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use known::KnownBsdfs;
+pub(crate) use standard::view::View as StandardView;
 pub(crate) use standard::{StandardBsdf, StandardPoint};
 
 use crate::material_eval::MaterialEval;
@@ -92,48 +95,68 @@ impl Bsdf {
         }
     }
 
-    /// Whether it scatters light into more than a few directions: only then lights are worth asking.
+    /// What a viewer sees of it.
+    #[inline]
+    pub(crate) fn seen_from(&self, wo: Vec3) -> View<'_> {
+        match self {
+            Self::Phong(phong) => View::Phong(phong, wo),
+            Self::Standard(standard) => View::Standard(standard.seen_from(wo)),
+        }
+    }
+}
+
+/// A surface at a point and a viewer of it, in the unit direction `wo`: what both decide is worked out once.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum View<'b> {
+    /// The report's surface.
+    Phong(&'b PhongBsdf, Vec3),
+    /// The physically based surface.
+    Standard(StandardView<'b>),
+}
+
+impl View<'_> {
+    /// Whether light is scattered into more than a few directions: only then lights are worth asking.
     #[inline]
     pub(crate) fn scatters(&self) -> bool {
         match self {
-            Self::Phong(phong) => phong.scatters(),
-            Self::Standard(standard) => standard.scatters(),
+            Self::Phong(phong, _) => phong.scatters(),
+            Self::Standard(view) => view.scatters(),
         }
     }
 
     /// The value, and the density with which [`Self::sample`] draws `wi`; mirror and clear glass left out.
     #[inline]
-    pub(crate) fn eval(&self, wo: Vec3, wi: Vec3) -> (Rgb, f32) {
+    pub(crate) fn eval(&self, wi: Vec3) -> (Rgb, f32) {
         match self {
-            Self::Phong(phong) => phong.eval(wo, wi),
-            Self::Standard(standard) => standard.eval(wo, wi),
+            Self::Phong(phong, wo) => phong.eval(*wo, wi),
+            Self::Standard(view) => view.answer(wi),
         }
     }
 
     /// A direction by random numbers in `[0, 1)`: `layer` chooses among layers, `u` the direction. `None` where the light is
     /// lost.
     #[inline]
-    pub(crate) fn sample(&self, wo: Vec3, layer: f32, u: Vec2) -> Option<BsdfSample> {
+    pub(crate) fn sample(&self, layer: f32, u: Vec2) -> Option<BsdfSample> {
         match self {
-            Self::Phong(phong) => phong.sample(wo, layer, u),
-            Self::Standard(standard) => standard.sample(wo, u.extend(layer)),
+            Self::Phong(phong, wo) => phong.sample(*wo, layer, u),
+            Self::Standard(view) => view.sample(u.extend(layer)),
         }
     }
 
     /// The share of the light that goes through without a bend, per channel in `[0, 1]`; 0 where it is bent or scattered.
     #[inline]
-    pub(crate) fn straight(&self, wo: Vec3) -> Rgb {
+    pub(crate) fn straight(&self) -> Rgb {
         match self {
-            Self::Phong(phong) => phong.straight(wo),
-            Self::Standard(standard) => standard.straight(wo),
+            Self::Phong(phong, wo) => phong.straight(*wo),
+            Self::Standard(view) => view.straight(),
         }
     }
 
-    /// The share of the light that it sends on, about; per channel in `[0, 1]`.
-    pub(crate) fn albedo(&self, wo: Vec3) -> Rgb {
+    /// The share of the light that is sent on, about; per channel in `[0, 1]`.
+    pub(crate) fn albedo(&self) -> Rgb {
         match self {
-            Self::Phong(phong) => phong.albedo(),
-            Self::Standard(standard) => standard.albedo(wo),
+            Self::Phong(phong, _) => phong.albedo(),
+            Self::Standard(view) => view.albedo(),
         }
     }
 }

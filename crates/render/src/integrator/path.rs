@@ -162,12 +162,13 @@ impl Path {
         if way.is_last && found.first.is_some() {
             return ControlFlow::Break(());
         }
-        let point = PathPoint::new(world, &covering, surface, dir, time);
+        let mut room = None;
+        let point = PathPoint::new(world, &covering, surface, dir, time, &mut room);
         found.first.get_or_insert_with(|| point.first_hit(object, material));
 
         // Ask a light, and send the path on.
         let choices = draws.next_2d();
-        if point.bsdf.scatters() {
+        if point.scatters() {
             let weight = |light: &light::LightSample, pdf: f32| heuristic(light.pdf, pdf);
             let by_chance = (choices.x, draws.next_2d());
             let light = way.weight * from_lights(world, &point, way.inside, by_chance, weight, counters);

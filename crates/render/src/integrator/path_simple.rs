@@ -117,7 +117,8 @@ impl Walk<'_, '_> {
             let passing = leg.passing.behind(surface, dir);
             return self.radiance(Leg { passing, sampler: leg.sampler.fork(0), ..leg });
         }
-        let point = PathPoint::new(world, &covering, surface, dir, self.time);
+        let mut room = None;
+        let point = PathPoint::new(world, &covering, surface, dir, self.time, &mut room);
         self.first.get_or_insert_with(|| point.first_hit(object, material));
         let absorption = match leg.inside {
             Some(inside) => inside.absorption,

@@ -124,7 +124,7 @@ impl Filter<'_> {
         let bsdf = Bsdf::new(&material.surface, &eval, surface.color, normals.enters, Vec3::Z);
         let cos = normals.ns.dot(normals.view);
         let view = Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
-        (open + opacity * bsdf.straight(view), material.surface.absorption())
+        (open + opacity * bsdf.seen_from(view).straight(), material.surface.absorption())
     }
 
     fn pane(&self, opacity: f32, transparency: Rgb, phong: &Phong) -> Pane {

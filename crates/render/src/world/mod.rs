@@ -37,6 +37,7 @@ pub(crate) use shadow_rays::ShadowRays;
 pub(crate) use thing::Thing;
 pub use trees::TreeCache;
 
+use crate::bsdf::KnownBsdfs;
 use crate::light::{LightTable, PreparedLight, Use};
 use body::{Parameters, SurfaceAt};
 use filter::Clear;
@@ -69,6 +70,7 @@ pub struct World<'s> {
     /// In the order of the scene.
     groups: Vec<Arc<PreparedGroup<'s>>>,
     lights: LightTable<'s>,
+    known_bsdfs: KnownBsdfs,
     /// What throws shadows: all of it, what lets nothing through, and the rest.
     casters: Candidates,
     stoppers: Candidates,
@@ -121,6 +123,7 @@ impl<'s> World<'s> {
             casters: candidates(|shadow| *shadow != Shadow::NONE),
             stoppers: candidates(|shadow| shadow.stops),
             filters: candidates(|shadow| shadow.filters),
+            known_bsdfs: KnownBsdfs::new(scene),
             lights: LightTable::new(scene, lamps(scene, &groups), level.bounds(), used),
             has_filters: shadows.iter().any(|shadow| shadow.filters),
             all_visible: scene.objects.iter().all(|object| object.visible),
@@ -272,6 +275,12 @@ impl<'s> World<'s> {
     /// All lights, for paths.
     pub(crate) fn light_table(&self) -> &LightTable<'s> {
         &self.lights
+    }
+
+    /// Surfaces that are the same everywhere.
+    #[inline]
+    pub(crate) fn known_bsdfs(&self) -> &KnownBsdfs {
+        &self.known_bsdfs
     }
 
     /// Ia.

@@ -10,14 +10,13 @@ mod cover;
 mod fill;
 mod glass_fill;
 mod point;
-pub(super) mod view;
+pub(crate) mod view;
 
 pub(crate) use point::StandardPoint;
 
-use super::BsdfSample;
 use base::{Base, Passage};
 use cover::Cover;
-use fill::{Fill, Sides};
+use fill::Fill;
 use glam::Vec3;
 use heliostat_scene::Rgb;
 use view::View;
@@ -42,44 +41,10 @@ impl StandardBsdf {
         Self { cover, base, fill }
     }
 
-    /// Whether it scatters light into more than a few directions.
-    pub(crate) fn scatters(&self) -> bool {
-        let is_rough = self.base.ggx.is_some() || self.cover.fibres.is_some();
-        is_rough || self.cover.coat.is_some_and(|coat| coat.ggx.is_some()) || !self.fill.is_empty()
-    }
-
-    /// The share of the light that goes through without a bend.
-    pub(crate) fn straight(&self, wo: Vec3) -> Rgb {
-        match (self.base.passage, self.base.ggx) {
-            (Passage::Sheet, None) => self.cover.passed(wo) * self.base.passed(wo.z.min(1.0)),
-            _ => Rgb::ZERO,
-        }
-    }
-
-    /// The value, and the density of `wi` among the directions that [`Self::sample`] draws, without mirrors and clear glass.
-    pub(crate) fn eval(&self, wo: Vec3, wi: Vec3) -> (Rgb, f32) {
-        View::new(self, wo).answer(wi)
-    }
-
-    /// A direction for a viewer, from numbers in `[0, 1)`; `None` where they lead nowhere, for which light is 0.
-    ///
-    /// With dispersion smooth glass picks one channel: the weight of the others is 0 and that of this one three times as
-    /// large, so that a weight with a single channel tells that the path has taken the way of one colour.
-    pub(crate) fn sample(&self, wo: Vec3, u: Vec3) -> Option<BsdfSample> {
-        if wo.z <= 0.0 {
-            return None;
-        }
-        View::new(self, wo).sample(u)
-    }
-
-    /// About the share of light from all around that goes to the viewer.
-    pub(crate) fn albedo(&self, wo: Vec3) -> Rgb {
-        let cover = &self.cover;
-        let coat = cover.coat.map_or(0.0, |coat| coat.share(wo));
-        let fibres = cover.fibres.map_or(Rgb::ZERO, |fibres| cover.coat_passed(wo) * fibres.albedo(wo));
-        let Sides { up, down } = self.fill.albedo(cover, wo);
-        let facets = cover.passed(wo) * (self.base.reflected(wo.z) + self.base.passed(wo.z));
-        (facets + fibres + up + down + coat).min(Rgb::ONE)
+    /// What a viewer sees of it.
+    #[inline]
+    pub(crate) fn seen_from(&self, wo: Vec3) -> View<'_> {
+        View::new(self, wo)
     }
 
     /// About what facets reflect to a viewer: the rougher, the less the angle matters.

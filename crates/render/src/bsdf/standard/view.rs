@@ -13,7 +13,7 @@ use heliostat_scene::Rgb;
 
 /// Ways of drawing a direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::bsdf) enum Way {
+pub(crate) enum Way {
     /// Reflected by the coat.
     Coat,
     /// Anywhere above: fibres have no lobe.
@@ -28,12 +28,11 @@ pub(in crate::bsdf) enum Way {
     Down,
 }
 
-pub(in crate::bsdf) const WAYS: [Way; 6] =
-    [Way::Coat, Way::Fibres, Way::Reflected, Way::Passed, Way::Up, Way::Down];
+pub(crate) const WAYS: [Way; 6] = [Way::Coat, Way::Fibres, Way::Reflected, Way::Passed, Way::Up, Way::Down];
 
 /// A surface and who looks at it.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::bsdf) struct View<'b> {
+pub(crate) struct View<'b> {
     bsdf: &'b StandardBsdf,
     wo: Vec3,
     /// Share of the light along `wo` that the cover lets pass.
@@ -43,7 +42,7 @@ pub(in crate::bsdf) struct View<'b> {
 }
 
 impl<'b> View<'b> {
-    pub(in crate::bsdf) fn new(bsdf: &'b StandardBsdf, wo: Vec3) -> Self {
+    pub(crate) fn new(bsdf: &'b StandardBsdf, wo: Vec3) -> Self {
         let passed = bsdf.cover.passed(wo);
         let Sides { up, down } = bsdf.fill.albedo(&bsdf.cover, wo);
         let coat = bsdf.cover.coat.map_or(0.0, |coat| coat.share(wo));
@@ -56,13 +55,39 @@ impl<'b> View<'b> {
         Self { bsdf, wo, passed, shares }
     }
 
+    /// Whether light is scattered into more than a few directions.
+    pub(crate) fn scatters(&self) -> bool {
+        let StandardBsdf { cover, base, fill } = self.bsdf;
+        let is_rough = base.ggx.is_some() || cover.fibres.is_some();
+        is_rough || cover.coat.is_some_and(|coat| coat.ggx.is_some()) || !fill.is_empty()
+    }
+
+    /// The share of the light that goes through without a bend.
+    pub(crate) fn straight(&self) -> Rgb {
+        let base = &self.bsdf.base;
+        match (base.passage, base.ggx) {
+            (Passage::Sheet, None) => self.passed * base.passed(self.wo.z.min(1.0)),
+            _ => Rgb::ZERO,
+        }
+    }
+
+    /// About the share of light from all around that goes to the viewer.
+    pub(crate) fn albedo(&self) -> Rgb {
+        let (StandardBsdf { cover, base, fill }, wo) = (self.bsdf, self.wo);
+        let coat = cover.coat.map_or(0.0, |coat| coat.share(wo));
+        let fibres = cover.fibres.map_or(Rgb::ZERO, |fibres| cover.coat_passed(wo) * fibres.albedo(wo));
+        let Sides { up, down } = fill.albedo(cover, wo);
+        let facets = self.passed * (base.reflected(wo.z) + base.passed(wo.z));
+        (facets + fibres + up + down + coat).min(Rgb::ONE)
+    }
+
     /// Probability of a way.
-    pub(in crate::bsdf) fn share(&self, way: Way) -> f32 {
+    pub(crate) fn share(&self, way: Way) -> f32 {
         self.shares[way as usize]
     }
 
     /// The value, and the density of `wi` in the mixture, both without mirrors and clear glass.
-    pub(in crate::bsdf) fn answer(&self, wi: Vec3) -> (Rgb, f32) {
+    pub(crate) fn answer(&self, wi: Vec3) -> (Rgb, f32) {
         let is_seen = self.wo.z > 0.0 && wi.z != 0.0;
         match is_seen {
             false => (Rgb::ZERO, 0.0),
@@ -121,14 +146,20 @@ impl<'b> View<'b> {
         (value, pdf)
     }
 
-    /// Draws a direction: `u.z` says which way, the rest where.
-    pub(in crate::bsdf) fn sample(&self, u: Vec3) -> Option<BsdfSample> {
+    /// Draws a direction: `u.z` says which way, the rest where; `None` where the numbers lead nowhere, for which light is 0.
+    ///
+    /// With dispersion smooth glass picks one channel: the weight of the others is 0 and that of this one three times as
+    /// large, so that a weight with a single channel tells that the path has taken the way of one colour.
+    pub(crate) fn sample(&self, u: Vec3) -> Option<BsdfSample> {
+        if self.wo.z <= 0.0 {
+            return None;
+        }
         let (way, rest) = self.choose(u.z)?;
         self.draw(way, rest, u.truncate())
     }
 
     /// Draws a direction by one of the ways; `rest` and `at` are numbers in `[0, 1)`.
-    pub(in crate::bsdf) fn draw(&self, way: Way, rest: f32, at: Vec2) -> Option<BsdfSample> {
+    pub(crate) fn draw(&self, way: Way, rest: f32, at: Vec2) -> Option<BsdfSample> {
         let (bsdf, wo) = (self.bsdf, self.wo);
         let (wi, event) = match way {
             Way::Coat => {
