@@ -129,7 +129,7 @@ impl<'s> World<'s> {
             casters: candidates(|shadow| *shadow != Shadow::NONE),
             stoppers: candidates(|shadow| shadow.stops),
             filters: candidates(|shadow| shadow.filters),
-            lights: LightTable::new(scene, lamps(scene, &groups), level.bounds(), used),
+            lights: LightTable::new(scene, lamps(scene, &groups), used),
             has_filters: shadows.iter().any(|shadow| shadow.filters),
             all_visible: scene.objects.iter().all(|object| object.visible),
             groups: in_order(scene, groups),
