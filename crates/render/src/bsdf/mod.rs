@@ -99,7 +99,7 @@ impl Bsdf {
         }
     }
 
-    /// The share of the light that it sends on, about; per channel in `[0, 1]`.
+    /// The share of the light that it sends on, highlights left out; per channel in `[0, 1]`.
     pub(crate) fn albedo(&self) -> Rgb {
         match self {
             Self::Phong(phong) => phong.albedo(),

@@ -1,7 +1,7 @@
 //! Light sources made ready: each gives samples of the light that arrives at a point.
 //!
 //! A [`LightSample`] knows the direction, what arrives from there, and where the shadow ray ends. Whether anything
-//! stands in between is asked by [`direct`].
+//! stands in between is asked by [`direct`]. Whitted's recursion asks every light; paths ask one, and [`whole`] chooses which.
 
 mod area;
 mod bundle;

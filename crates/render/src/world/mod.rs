@@ -2,7 +2,7 @@
 //!
 //! Levels: each mesh has one tree in its local space, however many objects show it; each group has its indices in its own
 //! space, however often it is placed, at whatever depth; the world has one index over the boxes of its objects. The visible surfaces of area lights stand beside the objects: rays see them, but they throw
-//! no shadow, so that a bulb does not hide the light inside it.
+//! no shadow, so that a bulb does not hide the light inside it; only where paths are traced they stop light, as they stop rays.
 
 mod blocker;
 mod body;
