@@ -1,4 +1,4 @@
-//! Whitted ray tracing over Heliostat scenes: camera, film, integrators.
+//! Whitted ray tracing and path tracing over Heliostat scenes: camera, film, integrators.
 //!
 //! A [`Scene`] says what is there, [`RenderSettings`] how much work goes into it, and [`render`] makes the picture:
 //!

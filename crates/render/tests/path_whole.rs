@@ -82,7 +82,7 @@ fn threads_and_passes_leave_no_trace() {
         assert_eq!(prepared.frame(&film), whole);
         let stats = prepared.stats();
         assert_eq!(stats.non_finite_samples, 0);
-        assert!(stats.rays.shadow > 0 && stats.rays.refraction > 0);
+        assert!(stats.rays.scatter > 0 && stats.rays.refraction > 0);
     }
 }
 

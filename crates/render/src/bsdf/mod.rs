@@ -152,7 +152,7 @@ impl View<'_> {
         }
     }
 
-    /// The share of the light that is sent on, about; per channel in `[0, 1]`.
+    /// The share of the light that it sends on, highlights left out; per channel in `[0, 1]`.
     pub(crate) fn albedo(&self) -> Rgb {
         match self {
             Self::Phong(phong, _) => phong.albedo(),

@@ -73,7 +73,7 @@ impl PhongBsdf {
     }
 
     pub(crate) fn albedo(&self) -> Rgb {
-        self.diffuse + self.specular + self.mirror + self.transparency
+        self.diffuse + self.mirror + self.transparency
     }
 
     #[inline]

@@ -1,5 +1,7 @@
 //! Lights from one point or one direction: point, spot and directional light.
 
+use super::choice::Reach;
+use super::cluster::{self, Cluster};
 use super::{LightSample, Target, Use};
 use glam::{Vec2, Vec3};
 use heliostat_geometry::warp::{cone_pdf, square_to_cone};
@@ -7,7 +9,7 @@ use heliostat_geometry::{Aabb, OrthonormalFrame};
 use heliostat_scene::Rgb;
 use heliostat_scene::color::luminance;
 use heliostat_scene::light::Falloff;
-use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI, TAU};
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 /// A point light, with a cone if it is a spot.
 #[derive(Debug)]
@@ -37,17 +39,21 @@ impl PointLight {
         Self { cone: Some(Cone { axis, cos_inner, cos_outer }), ..self }
     }
 
-    /// About the power in W; of a light without falloff, that of one that does the same all over a scene of so large a radius.
-    pub(super) fn power(&self, scene_radius: f32) -> f32 {
-        let solid_angle = self
-            .cone
-            .as_ref()
-            .map_or(2.0 * TAU, |cone| TAU * (1.0 - 0.5 * (cone.cos_inner + cone.cos_outer)));
-        let reach = match self.falloff {
-            Falloff::InverseSquare => solid_angle,
-            Falloff::None => PI * scene_radius * scene_radius,
+    /// What a choice among lights has to know of it.
+    pub(super) fn reach(&self) -> Reach {
+        let intensity = luminance(self.intensity);
+        if self.falloff == Falloff::None {
+            return Reach::Far(intensity);
+        }
+        let bounds = Aabb { min: self.position, max: self.position };
+        let (normals, spread) = match &self.cone {
+            None => (cluster::Cone::ALL, FRAC_PI_2),
+            Some(Cone { axis, cos_inner, cos_outer }) => {
+                let inner = cos_inner.acos();
+                (cluster::Cone { axis: *axis, angle: inner }, cos_outer.acos() - inner)
+            }
         };
-        luminance(self.intensity) * reach
+        Reach::Near(Cluster { bounds, intensity, normals, spread, two_sided: false })
     }
 
     #[inline]
@@ -132,9 +138,9 @@ impl DirectionalLight {
         self.half_angle > 0.0
     }
 
-    /// About the power in W that arrives in a scene of so large a radius.
-    pub(super) fn power(&self, scene_radius: f32) -> f32 {
-        luminance(self.intensity) * PI * scene_radius * scene_radius
+    /// What a choice among lights has to know of it.
+    pub(super) fn reach(&self) -> Reach {
+        Reach::Far(luminance(self.intensity))
     }
 
     /// A box that holds the whole source as seen from `p`, behind everything in the box `scene`.

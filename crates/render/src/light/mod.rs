@@ -1,11 +1,12 @@
 //! Light sources made ready: each gives samples of the light that arrives at a point.
 //!
 //! A [`LightSample`] knows the direction, what arrives from there, and where the shadow ray ends. Whether anything
-//! stands in between is asked by [`direct`].
+//! stands in between is asked by [`direct`]. Whitted's recursion asks every light; paths ask one, and [`whole`] chooses which.
 
 mod area;
 mod bundle;
 mod choice;
+mod cluster;
 mod delta;
 pub(crate) mod direct;
 mod emitter;
@@ -15,13 +16,14 @@ mod sphere;
 mod spherical_rectangle;
 mod sums;
 mod table2d;
+mod tree;
 mod whole;
 
 pub(crate) use whole::Lookout;
 
 use crate::world::{Hull, Lamp};
 use area::{AreaLight, FlatLamp};
-use choice::LightSampler;
+use choice::{LightSampler, Reach};
 use delta::{DirectionalLight, PointLight};
 use glam::{Vec2, Vec3};
 use heliostat_geometry::{Aabb, SurfacePoint};
@@ -132,12 +134,12 @@ impl<'s> PreparedLight<'s> {
         }
     }
 
-    /// About the power in W; of light from far away, what arrives in a scene of so large a radius.
-    fn power(&self, scene_radius: f32) -> f32 {
+    /// What a choice among lights has to know of it.
+    fn reach(&self) -> Reach {
         match &self.source {
-            Source::Point(light) => light.power(scene_radius),
-            Source::Directional(light) => light.power(scene_radius),
-            Source::Area(light) => light.power(scene_radius),
+            Source::Point(light) => light.reach(),
+            Source::Directional(light) => light.reach(),
+            Source::Area(light) => light.reach(),
         }
     }
 }
@@ -169,8 +171,8 @@ struct Owners {
 impl<'s> LightTable<'s> {
     /// The lights of a scene whose ids are valid.
     ///
-    /// `lamps` are the parts of groups that may shine; everything finite lies in the box `bounds`.
-    pub(crate) fn new(scene: &'s Scene, lamps: Vec<Lamp<'s>>, bounds: Aabb, used: Use) -> Self {
+    /// `lamps` are the parts of groups that may shine.
+    pub(crate) fn new(scene: &'s Scene, lamps: Vec<Lamp<'s>>, used: Use) -> Self {
         let ambient = |light: &&Light| matches!(light.kind, LightKind::Ambient);
         let ambient = scene.lights.iter().filter(ambient).map(|light| light.intensity).sum();
         let (mut lights, mut owners) = (Vec::new(), Owners::default());
@@ -192,8 +194,7 @@ impl<'s> LightTable<'s> {
             |light: &PreparedLight<'_>| matches!(&light.source, Source::Directional(sun) if sun.is_wide());
         let suns = (0..lights.len()).filter(|&i| is_sun(&lights[i])).collect();
         let sky = Sky::new(&scene.background, ambient, used);
-        let scene_radius = if bounds.is_empty() { 1.0 } else { bounds.radius() };
-        let sampler = whole::sampler(&lights, &sky, scene_radius);
+        let sampler = whole::sampler(&lights, &sky);
         Self { ambient, lights, sky, suns, owners, sampler }
     }
 }

@@ -74,9 +74,9 @@ impl<'s> Sky<'s> {
         self.table.is_some()
     }
 
-    /// About the power in W that arrives in a scene of so large a radius.
-    pub(super) fn power(&self, scene_radius: f32) -> f32 {
-        self.mean * PI * PI * scene_radius * scene_radius
+    /// About the irradiance of all of it.
+    pub(super) fn irradiance(&self) -> f32 {
+        PI * self.mean
     }
 
     /// Light from a direction that is worth asking for.

@@ -1,6 +1,6 @@
 //! All lights of a scene as one, for paths: a light is chosen, and asked for a sample.
 
-use super::choice::LightSampler;
+use super::choice::{LightSampler, Reach};
 use super::sky::Sky;
 use super::{LightSample, LightTable, Owners, PreparedLight, Source};
 use crate::world::{Owner, SurfaceHit};
@@ -23,7 +23,7 @@ impl LightTable<'_> {
     /// and density. `None` where nothing comes this way.
     #[inline]
     pub(crate) fn draw(&self, from: &Lookout, choice: f32, u: Vec2) -> Option<LightSample> {
-        let (light, probability, _) = self.sampler.pick(from.p, from.n, choice)?;
+        let (light, probability) = self.sampler.pick(from.p, from.n, choice)?;
         let sample = match self.lights.get(light) {
             Some(light) => light.sample(from.p, u, from.time)?,
             None => self.sky.sample(u)?,
@@ -69,10 +69,9 @@ impl LightTable<'_> {
 }
 
 /// The choice among lights, the sky behind them where it is worth asking.
-pub(super) fn sampler(lights: &[PreparedLight<'_>], sky: &Sky<'_>, scene_radius: f32) -> LightSampler {
-    let powers = lights.iter().map(|light| light.power(scene_radius));
-    let sky = sky.is_sampled().then(|| sky.power(scene_radius));
-    LightSampler::new(&powers.chain(sky).collect::<Vec<_>>())
+pub(super) fn sampler(lights: &[PreparedLight<'_>], sky: &Sky<'_>) -> LightSampler {
+    let sky = sky.is_sampled().then(|| Reach::Far(sky.irradiance()));
+    LightSampler::new(lights.iter().map(PreparedLight::reach).chain(sky))
 }
 
 impl Owners {

@@ -3,7 +3,7 @@
 //! Levels: each mesh has one tree in its local space, however many objects show it; each group has its indices in its own
 //! space, however often it is placed, at whatever depth; the world has one index over the boxes of its objects. The visible
 //! surfaces of area lights stand beside the objects: rays see them, but they throw no shadow, so that a bulb does not hide the
-//! light inside it.
+//! light inside it; only where paths are traced they stop light, as they stop rays.
 
 mod blocker;
 mod body;
@@ -124,7 +124,7 @@ impl<'s> World<'s> {
             stoppers: candidates(|shadow| shadow.stops),
             filters: candidates(|shadow| shadow.filters),
             known_bsdfs: KnownBsdfs::new(scene),
-            lights: LightTable::new(scene, lamps(scene, &groups), level.bounds(), used),
+            lights: LightTable::new(scene, lamps(scene, &groups), used),
             has_filters: shadows.iter().any(|shadow| shadow.filters),
             all_visible: scene.objects.iter().all(|object| object.visible),
             groups: in_order(scene, groups),

@@ -26,6 +26,10 @@ pub enum FresnelMode {
 ///
 /// where each transparent metre inside is weighted by `exp(-absorption)`.
 ///
+/// Where paths are traced, colours are shares of the light: `diffuse` is the albedo of a Lambert surface, so that a lamp of the
+/// same irradiance seems weaker by pi, and `specular` that of a highlight without its falling off at grazing angles. `ambient` is not
+/// looked at. Shares that add up to more than 1 are scaled down together.
+///
 /// # Source
 /// Phong, "Illumination for Computer Generated Pictures", CACM 1975; Whitted, "An Improved Illumination Model for
 /// Shaded Display", CACM 1980.

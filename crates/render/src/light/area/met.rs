@@ -1,12 +1,14 @@
 //! What rays find that meet the surface of a light by themselves.
 
+use super::super::choice::Reach;
+use super::super::cluster::{Cluster, Cone};
 use super::{AreaLight, Radiance, Shortcut};
 use crate::world::SurfaceHit;
 use glam::Vec3;
 use heliostat_geometry::Transform;
 use heliostat_scene::color::luminance;
 use heliostat_scene::light::Falloff;
-use std::f32::consts::PI;
+use std::f32::consts::FRAC_PI_2;
 
 impl AreaLight<'_> {
     /// The density by solid angle with which [`AreaLight::sample`] draws, for `p`, the direction to a hit on its surface;
@@ -45,8 +47,8 @@ impl AreaLight<'_> {
         (1.0 / (self.emitter.area() * stretch(&place, ng))) as f32
     }
 
-    /// About the power in W.
-    pub(in super::super) fn power(&self, scene_radius: f32) -> f32 {
+    /// What a choice among lights has to know of it.
+    pub(in super::super) fn reach(&self) -> Reach {
         let radiance = match self.radiance {
             Radiance::Constant(radiance) => luminance(radiance),
             Radiance::Object(scene, object) => {
@@ -54,13 +56,25 @@ impl AreaLight<'_> {
                 object.materials.iter().map(|id| shine(id.index())).fold(0.0, f32::max)
             }
         };
-        if self.falloff == Falloff::None {
-            return radiance * PI * scene_radius * scene_radius;
+        let bounds = self.stand.bounds(self.emitter.bounds());
+        if self.falloff == Falloff::None || !bounds.is_finite() {
+            return Reach::Far(radiance);
         }
-        let sides = if self.two_sided { 2.0 } else { 1.0 };
-        // A map that stretches by different factors is taken for one that does by their mean.
+        let (normals, area) = match &self.shortcut {
+            Some(Shortcut::Flat(flat) | Shortcut::Rectangle(flat, _)) => {
+                (Cone { axis: flat.normal, angle: 0.0 }, flat.area)
+            }
+            // A convex body shows a quarter of its area from any side, in the mean.
+            Some(Shortcut::Sphere(..)) | None => (Cone::ALL, 0.25 * self.mean_area()),
+        };
+        let (intensity, two_sided) = (area * radiance, self.two_sided);
+        Reach::Near(Cluster { bounds, intensity, normals, spread: FRAC_PI_2, two_sided })
+    }
+
+    /// Area in world space, as if the map stretched all directions alike.
+    fn mean_area(&self) -> f32 {
         let determinant = self.stand.now(0.0).map_or(0.0, |place| place.matrix().matrix3.determinant().abs());
-        sides * PI * radiance * (self.emitter.area() * determinant.cbrt().powi(2)) as f32
+        (self.emitter.area() * determinant.cbrt().powi(2)) as f32
     }
 }
 

@@ -51,6 +51,14 @@ impl Stand<'_> {
         }
     }
 
+    /// The box in world space of what has the box `local`, over the shutter.
+    fn bounds(&self, local: Aabb) -> Aabb {
+        match self {
+            Self::Place(place) => place.bounds(local),
+            Self::Chain(chain) => chain.bounds(local),
+        }
+    }
+
     /// See [`Hull::new`]; `None` without a finite box.
     fn hull(&self, local: Aabb, shape: Option<&Shape>) -> Option<Hull> {
         match self {
