@@ -1,6 +1,6 @@
 //! How much light rough boundaries keep at first whose highlights are drawn out.
 
-use super::axis::{Place, grazing_axis, grazing_cos, grazing_mean, node_width};
+use super::axis::{Place, grazing_axis, grazing_cos, grazing_decay, grazing_mean, node_width};
 use crate::bsdf::ggx::Ggx;
 use crate::bsdf::quadrature::gauss_legendre;
 use glam::{Vec2, Vec3};
@@ -19,9 +19,10 @@ const CAPS: usize = 16;
 
 /// See [`super::Reflection::lost`].
 pub(super) fn lost(ggx: &Ggx, w: Vec3) -> f32 {
-    let axis = grazing_axis(w.z.abs().min(1.0), ggx.width_along(w));
+    let (cos, alpha) = (w.z.abs().min(1.0), ggx.width_along(w));
+    let axis = grazing_axis(cos, alpha);
     let (turn, x) = (Place::even(ggx.turn_of(w) / FRAC_PI_2, TURN), Place::even(axis, GRAZING));
-    sum_over(ggx, |nodes| {
+    grazing_decay(cos, alpha) * sum_over(ggx, |nodes| {
         let mut sum = 0.0;
         for (t, at_turn) in turn.pair() {
             for (c, at_cos) in x.pair() {
@@ -53,7 +54,7 @@ fn sum_over(ggx: &Ggx, value: impl Fn(&Nodes) -> f32) -> f32 {
     sum
 }
 
-/// Light kept at one width and strength, by turn and cosine; and its mean over [`mean_square`].
+/// Light kept at one width and strength, by turn and cosine, over [`grazing_decay`]; and its mean over [`mean_square`].
 struct Nodes {
     lost: [[f32; GRAZING]; TURN],
     mean: f32,
@@ -71,7 +72,8 @@ fn nodes(ggx: &Ggx) -> Nodes {
         let alpha = ggx.width_along(turn(t).extend(0.0));
         for (x, value) in row.iter_mut().enumerate() {
             let cos = grazing_cos(x as f32 / (GRAZING - 1) as f32, alpha);
-            *value = lost_at(ggx, ((1.0 - cos * cos).max(0.0).sqrt() * turn(t)).extend(cos));
+            let wo = ((1.0 - cos * cos).max(0.0).sqrt() * turn(t)).extend(cos);
+            *value = lost_at(ggx, wo) / grazing_decay(cos, alpha);
         }
         let at = |place: Place| place.pair().map(|(x, share)| share * row[x]).iter().sum::<f32>();
         // The trapezoid's rule over the turns.
@@ -88,9 +90,9 @@ fn lost_at(ggx: &Ggx, wo: Vec3) -> f32 {
         for turn in 0..TURNS {
             let h = ggx.visible_reflecting(wo, Vec2::new((turn as f32 + 0.5) / TURNS as f32, y));
             let wi = 2.0 * wo.dot(h) * h - wo;
-            let seen = if wi.z > 0.0 { ggx.reflecting_weight(wo, wi) } else { 0.0 };
-            sum += weight / TURNS as f32 * (1.0 - seen);
+            let hidden = if wi.z > 0.0 { ggx.hidden_reflecting(wo, wi) } else { 1.0 };
+            sum += weight / TURNS as f32 * hidden;
         }
     }
-    sum.max(0.0)
+    sum
 }

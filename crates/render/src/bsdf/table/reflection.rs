@@ -1,7 +1,7 @@
 //! How much light rough boundaries reflect, once, for any curve of reflectance over the angle.
 
 use super::anisotropic;
-use super::axis::{Place, grazing_axis, grazing_cos, grazing_mean, node_width};
+use super::axis::{Place, grazing_axis, grazing_cos, grazing_decay, grazing_mean, node_width};
 use crate::bsdf::ggx::Ggx;
 use crate::bsdf::quadrature::gauss_legendre;
 use glam::{Vec2, Vec3};
@@ -99,7 +99,7 @@ impl Reflection {
                 sum += at_width * at_cos * TABLE.lost[width][x];
             }
         }
-        sum
+        sum * grazing_decay(cos, ggx.mean_alpha())
     }
 
     /// The mean of [`Self::lost`] over the hemisphere, weighted by the cosine; above 0.
@@ -176,6 +176,7 @@ pub(crate) fn cosine_mean(curve: &Curve) -> Rgb {
 
 /// See [`Reflection`]; the first index is that of the width.
 struct Table {
+    /// Over [`grazing_decay`].
     lost: Vec<[f32; GRAZING]>,
     /// Over the square of the width, as it grows.
     lost_mean: Vec<f32>,
@@ -203,7 +204,7 @@ static TABLE: LazyLock<Table> = LazyLock::new(|| {
 
 fn lost_at(x: usize, alpha: f32) -> f32 {
     let cos = grazing_cos(x as f32 / (GRAZING - 1) as f32, alpha);
-    facets(cos, alpha).into_iter().map(|(_, weight, seen)| weight * (1.0 - seen)).sum::<f32>().max(0.0)
+    facets(cos, alpha).into_iter().map(|(_, weight, hidden)| weight * hidden).sum::<f32>() / grazing_decay(cos, alpha)
 }
 
 fn angles_at(c: usize, alpha: f32) -> [f32; CURVE] {
@@ -216,9 +217,9 @@ fn angles_at(c: usize, alpha: f32) -> [f32; CURVE] {
 /// Weights of the nodes of a curve, in the light that is sent on at once.
 fn curve_weights(cos: f32, alpha: f32) -> [f32; CURVE] {
     let mut weights = [0.0; CURVE];
-    for (cos, share, seen) in facets(cos, alpha) {
+    for (cos, share, hidden) in facets(cos, alpha) {
         for (sum, weight) in weights.iter_mut().zip(between_nodes(cos)) {
-            *sum += share * seen * weight;
+            *sum += share * (1.0 - hidden) * weight;
         }
     }
     weights
@@ -237,8 +238,8 @@ fn angles_mean_at(alpha: f32) -> [f32; CURVE] {
     sum
 }
 
-/// Nodes of the integral over the facets that a viewer sees: the cosine between the two, the weight, and the light that the
-/// facet sends on at once.
+/// Nodes of the integral over the facets that a viewer sees: the cosine between the two, the weight, and the light that
+/// the facet keeps at first.
 fn facets(cos: f32, alpha: f32) -> Vec<(f32, f32, f32)> {
     let ggx = Ggx::isotropic(alpha);
     let wo = Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
@@ -249,8 +250,8 @@ fn facets(cos: f32, alpha: f32) -> Vec<(f32, f32, f32)> {
             let h = ggx.visible_reflecting(wo, u);
             let cos = wo.dot(h);
             let wi = 2.0 * cos * h - wo;
-            let seen = if wi.z > 0.0 { ggx.reflecting_weight(wo, wi) } else { 0.0 };
-            nodes.push((cos.clamp(0.0, 1.0), weight / TURNS as f32, seen));
+            let hidden = if wi.z > 0.0 { ggx.hidden_reflecting(wo, wi) } else { 1.0 };
+            nodes.push((cos.clamp(0.0, 1.0), weight / TURNS as f32, hidden));
         }
     }
     nodes

@@ -3,13 +3,13 @@
 use super::*;
 use std::f64::consts::PI;
 
-/// Bins of the sphere: heights by turns.
-const HEIGHTS: usize = 24;
-const TURNS: usize = 24;
+/// Bins of the sphere: angles from the normal by turns.
+const HEIGHTS: usize = 20;
+const TURNS: usize = 20;
 /// Draws of each test.
 const DRAWS: u32 = 40_000;
 /// Nodes of the integral of the density in a bin, along either axis.
-const NODES: usize = 24;
+const NODES: usize = 40;
 /// Chance of a test to fail by itself, all of them together.
 const SIGNIFICANCE: f64 = 1e-4;
 
@@ -34,7 +34,7 @@ fn counted(bsdf: &StandardBsdf, wo: Vec3, seed: u64) -> Shares {
     for _ in 0..DRAWS {
         match bsdf.sample(wo, Vec3::new(next(), next(), next())) {
             Some(sample) if !sample.is_delta() => {
-                let height = ((0.5 + 0.5 * sample.wi.z) * HEIGHTS as f32) as usize;
+                let height = (sample.wi.z.clamp(-1.0, 1.0).acos() / std::f32::consts::PI * HEIGHTS as f32) as usize;
                 let turn = (sample.wi.y.atan2(sample.wi.x) / TAU).rem_euclid(1.0) * TURNS as f32;
                 let bin = height.min(HEIGHTS - 1) * TURNS + (turn as usize).min(TURNS - 1);
                 shares.bins[bin] += 1.0 / f64::from(DRAWS);
@@ -54,9 +54,11 @@ fn expected(bsdf: &StandardBsdf, wo: Vec3) -> Shares {
         for k in 0..NODES * NODES {
             let z = (height as f32 + ((k / NODES) as f32 + 0.5) / NODES as f32) / HEIGHTS as f32;
             let at = (turn as f32 + ((k % NODES) as f32 + 0.5) / NODES as f32) / TURNS as f32;
-            *share += f64::from(view.answer(direction(2.0 * z - 1.0, at)).1);
+            let (sin, cos) = (std::f32::consts::PI * z).sin_cos();
+            let wi = (sin * Vec2::from_angle(TAU * at)).extend(cos);
+            *share += f64::from(sin * view.answer(wi).1);
         }
-        *share *= 4.0 * PI / (HEIGHTS * TURNS * NODES * NODES) as f64;
+        *share *= 2.0 * PI * PI / (HEIGHTS * TURNS * NODES * NODES) as f64;
     }
     let rest = 1.0 - bins.iter().sum::<f64>();
     Shares { bins, rest }
