@@ -37,6 +37,13 @@ impl Curve {
     }
 }
 
+impl Curve {
+    /// The first channel at a cosine.
+    fn at(&self, cos: f32) -> f32 {
+        self.sum(&between_nodes(cos)).x
+    }
+}
+
 fn node_cos(k: usize) -> f32 {
     (k as f32 / (CURVE - 1) as f32).powi(2)
 }
@@ -145,6 +152,25 @@ impl Reflection {
         curve.sum(&weights)
     }
 
+    /// Of white light, what facets send to a viewer along `w` from more grazing directions and what a cover stops of it, because
+    /// it lets the smaller of what passes along either direction; `passed` is that over the cosine.
+    pub(crate) fn stopped(&self, passed: &Curve, w: Vec3) -> f32 {
+        let Some(ggx) = &self.ggx else { return 0.0 };
+        let cos = w.z.abs().min(1.0);
+        let width = Place::width(ggx.width_along(w), WIDTH);
+        let here = passed.at(cos);
+        let steps = LOWER.map(|lower| (here - passed.at(cos * (1.0 - lower))).max(0.0));
+        let mut sum = 0.0;
+        for (width, at_width) in width.pair() {
+            for (c, at_cos) in Place::even(cos.sqrt(), COS).pair() {
+                for (step, weight) in steps.iter().zip(&TABLE.lower[width][c]) {
+                    sum += at_width * at_cos * step * weight;
+                }
+            }
+        }
+        sum.max(0.0)
+    }
+
     /// What is left, per unit of light that facets keep at first, of the light that they throw at each other until it leaves.
     ///
     /// # Source
@@ -183,7 +209,12 @@ struct Table {
     /// Weights of the nodes of a curve, which add up to 1.
     angles: Vec<[[f32; CURVE]; COS]>,
     angles_mean: Vec<[f32; CURVE]>,
+    /// Weights of what a function of the cosine of the light loses at each of [`LOWER`], in light from lower than the viewer.
+    lower: Vec<[[f32; LOWER.len()]; COS]>,
 }
+
+/// How much lower than the viewer, as a share of the cosine.
+const LOWER: [f32; 3] = [1.0 / 3.0, 2.0 / 3.0, 1.0];
 
 static TABLE: LazyLock<Table> = LazyLock::new(|| {
     let widths = || (0..WIDTH).map(|w| node_width(w, WIDTH));
@@ -199,12 +230,13 @@ static TABLE: LazyLock<Table> = LazyLock::new(|| {
         lost,
         angles: widths().map(|alpha| std::array::from_fn(|c| angles_at(c, alpha))).collect(),
         angles_mean: widths().map(angles_mean_at).collect(),
+        lower: widths().map(|alpha| std::array::from_fn(|c| lower_at(c, alpha))).collect(),
     }
 });
 
 fn lost_at(x: usize, alpha: f32) -> f32 {
     let cos = grazing_cos(x as f32 / (GRAZING - 1) as f32, alpha);
-    facets(cos, alpha).into_iter().map(|(_, weight, hidden)| weight * hidden).sum::<f32>() / grazing_decay(cos, alpha)
+    facets(cos, alpha).iter().map(|node| node.weight * node.hidden).sum::<f32>() / grazing_decay(cos, alpha)
 }
 
 fn angles_at(c: usize, alpha: f32) -> [f32; CURVE] {
@@ -217,10 +249,25 @@ fn angles_at(c: usize, alpha: f32) -> [f32; CURVE] {
 /// Weights of the nodes of a curve, in the light that is sent on at once.
 fn curve_weights(cos: f32, alpha: f32) -> [f32; CURVE] {
     let mut weights = [0.0; CURVE];
-    for (cos, share, hidden) in facets(cos, alpha) {
-        for (sum, weight) in weights.iter_mut().zip(between_nodes(cos)) {
-            *sum += share * (1.0 - hidden) * weight;
+    for node in facets(cos, alpha) {
+        for (sum, weight) in weights.iter_mut().zip(between_nodes(node.cos)) {
+            *sum += node.weight * (1.0 - node.hidden) * weight;
         }
+    }
+    weights
+}
+
+/// Weights of a cubic that is 0 at the viewer's cosine, in the light from lower that is sent on at once.
+fn lower_at(c: usize, alpha: f32) -> [f32; LOWER.len()] {
+    let cos = (c as f32 / (COS - 1) as f32).powi(2);
+    let mut weights = [0.0; LOWER.len()];
+    for node in facets(cos, alpha).iter().filter(|node| node.height < cos) {
+        let y = 3.0 * (cos - node.height) / cos;
+        let share = node.weight * (1.0 - node.hidden);
+        // Lagrange's polynomials for 0, 1, 2 and 3.
+        weights[0] += share * 0.5 * y * (y - 2.0) * (y - 3.0);
+        weights[1] -= share * 0.5 * y * (y - 1.0) * (y - 3.0);
+        weights[2] += share * y * (y - 1.0) * (y - 2.0) / 6.0;
     }
     weights
 }
@@ -238,9 +285,19 @@ fn angles_mean_at(alpha: f32) -> [f32; CURVE] {
     sum
 }
 
-/// Nodes of the integral over the facets that a viewer sees: the cosine between the two, the weight, and the light that
-/// the facet keeps at first.
-fn facets(cos: f32, alpha: f32) -> Vec<(f32, f32, f32)> {
+/// A node of the integral over the facets that a viewer sees.
+struct FacetNode {
+    /// Cosine between facet and viewer.
+    cos: f32,
+    /// Cosine of the light that it reflects.
+    height: f32,
+    weight: f32,
+    /// Share of the light that it keeps at first.
+    hidden: f32,
+}
+
+/// The integral over the facets that a viewer sees.
+fn facets(cos: f32, alpha: f32) -> Vec<FacetNode> {
     let ggx = Ggx::isotropic(alpha);
     let wo = Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
     let mut nodes = Vec::with_capacity(TURNS * CAPS);
@@ -251,7 +308,8 @@ fn facets(cos: f32, alpha: f32) -> Vec<(f32, f32, f32)> {
             let cos = wo.dot(h);
             let wi = 2.0 * cos * h - wo;
             let hidden = if wi.z > 0.0 { ggx.hidden_reflecting(wo, wi) } else { 1.0 };
-            nodes.push((cos.clamp(0.0, 1.0), weight / TURNS as f32, hidden));
+            let (cos, weight) = (cos.clamp(0.0, 1.0), weight / TURNS as f32);
+            nodes.push(FacetNode { cos, height: wi.z, weight, hidden });
         }
     }
     nodes
