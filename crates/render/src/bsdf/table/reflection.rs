@@ -214,7 +214,7 @@ struct Table {
 }
 
 /// How much lower than the viewer, as a share of the cosine.
-const LOWER: [f32; 3] = [1.0 / 3.0, 2.0 / 3.0, 1.0];
+const LOWER: [f32; 6] = [0.1, 0.25, 0.45, 0.65, 0.85, 1.0];
 
 static TABLE: LazyLock<Table> = LazyLock::new(|| {
     let widths = || (0..WIDTH).map(|w| node_width(w, WIDTH));
@@ -257,17 +257,20 @@ fn curve_weights(cos: f32, alpha: f32) -> [f32; CURVE] {
     weights
 }
 
-/// Weights of a cubic that is 0 at the viewer's cosine, in the light from lower that is sent on at once.
+/// Weights, at [`LOWER`], of what is 0 at the viewer's cosine and linear between, in the light from lower that is sent on.
 fn lower_at(c: usize, alpha: f32) -> [f32; LOWER.len()] {
     let cos = (c as f32 / (COS - 1) as f32).powi(2);
     let mut weights = [0.0; LOWER.len()];
     for node in facets(cos, alpha).iter().filter(|node| node.height < cos) {
-        let y = 3.0 * (cos - node.height) / cos;
-        let share = node.weight * (1.0 - node.hidden);
-        // Lagrange's polynomials for 0, 1, 2 and 3.
-        weights[0] += share * 0.5 * y * (y - 2.0) * (y - 3.0);
-        weights[1] -= share * 0.5 * y * (y - 1.0) * (y - 3.0);
-        weights[2] += share * y * (y - 1.0) * (y - 2.0) / 6.0;
+        let lower = ((cos - node.height) / cos).clamp(0.0, 1.0);
+        let next = LOWER.iter().position(|at| lower <= *at).unwrap_or(LOWER.len() - 1);
+        let before = next.checked_sub(1).map_or(0.0, |k| LOWER[k]);
+        let share = (lower - before) / (LOWER[next] - before);
+        let light = node.weight * (1.0 - node.hidden);
+        weights[next] += light * share;
+        if next > 0 {
+            weights[next - 1] += light * (1.0 - share);
+        }
     }
     weights
 }

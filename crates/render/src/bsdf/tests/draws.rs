@@ -138,3 +138,22 @@ fn bsdf_weight_is_value_over_density() {
     }
     assert!(worst < 1e-6, "{worst}");
 }
+
+#[test]
+fn bsdf_tmp() {
+    let bsdf = outside(&rough(|p| p.transmission = 1.0, 1.0));
+    let wo = viewer(0.15);
+    let view = crate::bsdf::standard::view::View::new(&bsdf, wo);
+    for way in crate::bsdf::standard::view::WAYS {
+        let mut none = 0;
+        let mut zero = 0;
+        for u in lattice(1 << 18) {
+            match view.draw(way, u.z, u.truncate()) { None => none += 1, Some(s) => if bsdf.pdf(wo, s.wi) <= 0.0 { zero += 1 } }
+        }
+        println!("{way:?} share {} none {} zero {}", view.share(way), none as f32 / (1 << 18) as f32, zero);
+    }
+    let e = expected(&bsdf, wo);
+    let c = counted(&bsdf, wo, 5);
+    println!("rest {} counted {}", e.rest, c.rest);
+    for h in 0..HEIGHTS { println!("{h} {:.5} {:.5}", e.bins[h*TURNS..(h+1)*TURNS].iter().sum::<f64>(), c.bins[h*TURNS..(h+1)*TURNS].iter().sum::<f64>()); }
+}
