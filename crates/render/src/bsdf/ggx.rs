@@ -30,7 +30,10 @@ impl Ggx {
         let alpha = roughness * roughness;
         let along = alpha + (1.0 - alpha) * anisotropy * anisotropy;
         let is_rough = along.max(alpha) >= error_bound::LEAST_WIDTH;
-        is_rough.then(|| Self { alpha: Vec2::new(along, alpha).max(Vec2::splat(error_bound::LEAST_WIDTH)), tangent })
+        is_rough.then(|| Self {
+            alpha: Vec2::new(along, alpha).max(Vec2::splat(error_bound::LEAST_WIDTH)),
+            tangent,
+        })
     }
 
     /// The same width along all tangents; at least that of which rounding leaves something.

@@ -91,8 +91,7 @@ impl Face {
     }
 
     fn passed_mean(&self, reflection: &Reflection) -> Rgb {
-        let kept =
-            reflection.albedo_mean(&self.curve) + self.between * reflection.lost_mean();
+        let kept = reflection.albedo_mean(&self.curve) + self.between * reflection.lost_mean();
         (Rgb::ONE - kept).clamp(Rgb::ZERO, Rgb::ONE)
     }
 }
@@ -198,7 +197,8 @@ fn matte_fill(
         return None;
     }
     let through = point.diffuse_transmission;
-    let mean = covered_mean(cover, reflection, |w| face.passed(reflection, w), || face.passed_mean(reflection));
+    let mean =
+        covered_mean(cover, reflection, |w| face.passed(reflection, w), || face.passed_mean(reflection));
     // Under a mirror there is no light to scale.
     (mean.max_element() > error_bound::TABLE_ERROR).then_some(MatteFill {
         share: base.matte_share(),

@@ -81,18 +81,16 @@ impl GlassFill {
         let loss = |side: &Side, w: Vec3| {
             side.gather(self.is_dispersed, self.stretch.at(w), |interface| interface.loss(w.z.abs()))
         };
-        let kernel = if wi.z > 0.0 {
-            self.same * loss(here, wi)
-        } else {
-            self.tint * self.across * loss(there, wi)
-        };
+        let kernel =
+            if wi.z > 0.0 { self.same * loss(here, wi) } else { self.tint * self.across * loss(there, wi) };
         self.weight * loss(here, wo) * kernel
     }
 
     /// What is sent to a viewer in all.
     pub(super) fn albedo(&self, wo: Vec3) -> Sides {
         let [here, there] = &self.sides;
-        let lost = self.weight * here.gather(self.is_dispersed, self.stretch.at(wo), |interface| interface.loss(wo.z));
+        let lost = self.weight
+            * here.gather(self.is_dispersed, self.stretch.at(wo), |interface| interface.loss(wo.z));
         let mean = |side: &Side| {
             side.gather(self.is_dispersed, self.stretch.mean(), |interface| interface.loss_mean())
         };

@@ -28,7 +28,8 @@ pub(in crate::bsdf) enum Way {
     Down,
 }
 
-pub(in crate::bsdf) const WAYS: [Way; 6] = [Way::Coat, Way::Fibres, Way::Reflected, Way::Passed, Way::Up, Way::Down];
+pub(in crate::bsdf) const WAYS: [Way; 6] =
+    [Way::Coat, Way::Fibres, Way::Reflected, Way::Passed, Way::Up, Way::Down];
 
 /// A surface and who looks at it.
 #[derive(Clone, Copy, Debug)]

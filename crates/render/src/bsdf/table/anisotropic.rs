@@ -17,20 +17,24 @@ const GRAZING: usize = 24;
 const TURNS: usize = 24;
 const CAPS: usize = 16;
 
+/// A width by which nothing decays: across the highlight another width counts at every angle.
+const FLAT: f32 = 1024.0;
+
 /// See [`super::Reflection::lost`].
 pub(super) fn lost(ggx: &Ggx, w: Vec3) -> f32 {
     let (cos, alpha) = (w.z.abs().min(1.0), ggx.width_along(w));
     let axis = grazing_axis(cos, alpha);
     let (turn, x) = (Place::even(ggx.turn_of(w) / FRAC_PI_2, TURN), Place::even(axis, GRAZING));
-    grazing_decay(cos, alpha) * sum_over(ggx, |nodes| {
-        let mut sum = 0.0;
-        for (t, at_turn) in turn.pair() {
-            for (c, at_cos) in x.pair() {
-                sum += at_turn * at_cos * nodes.lost[t][c];
+    grazing_decay(cos, FLAT)
+        * sum_over(ggx, |nodes| {
+            let mut sum = 0.0;
+            for (t, at_turn) in turn.pair() {
+                for (c, at_cos) in x.pair() {
+                    sum += at_turn * at_cos * nodes.lost[t][c];
+                }
             }
-        }
-        sum
-    })
+            sum
+        })
 }
 
 /// See [`super::Reflection::lost_mean`].
@@ -61,7 +65,9 @@ struct Nodes {
 }
 
 static TABLE: LazyLock<Vec<Vec<Nodes>>> = LazyLock::new(|| {
-    let at = |w: usize, s: usize| nodes(&Ggx::stretched_by(node_width(w, WIDTH), s as f32 / (STRENGTH - 1) as f32));
+    let at = |w: usize, s: usize| {
+        nodes(&Ggx::stretched_by(node_width(w, WIDTH), s as f32 / (STRENGTH - 1) as f32))
+    };
     (0..WIDTH).map(|w| (0..STRENGTH).map(|s| at(w, s)).collect()).collect()
 });
 
@@ -73,12 +79,12 @@ fn nodes(ggx: &Ggx) -> Nodes {
         for (x, value) in row.iter_mut().enumerate() {
             let cos = grazing_cos(x as f32 / (GRAZING - 1) as f32, alpha);
             let wo = ((1.0 - cos * cos).max(0.0).sqrt() * turn(t)).extend(cos);
-            *value = lost_at(ggx, wo) / grazing_decay(cos, alpha);
+            *value = lost_at(ggx, wo) / grazing_decay(cos, FLAT);
         }
         let at = |place: Place| place.pair().map(|(x, share)| share * row[x]).iter().sum::<f32>();
         // The trapezoid's rule over the turns.
         let share = if t == 0 || t == TURN - 1 { 0.5 } else { 1.0 } / (TURN - 1) as f32;
-        mean += share * grazing_mean(GRAZING, alpha).map(|(place, area)| area * at(place)).sum::<f32>();
+        mean += share * grazing_mean(GRAZING, alpha, FLAT).map(|(place, area)| area * at(place)).sum::<f32>();
     }
     Nodes { lost, mean: mean / mean_square(ggx) }
 }

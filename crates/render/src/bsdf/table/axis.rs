@@ -69,13 +69,15 @@ const STEPS: usize = 16;
 
 /// The mean over the hemisphere, weighted by the cosine, of what is known over [`grazing_decay`] at `count` even nodes of
 /// [`grazing_axis`] and linear between them: for each of many steps the node before, the way to the next one, and the weight.
-pub(super) fn grazing_mean(count: usize, alpha: f32) -> impl Iterator<Item = (Place, f32)> {
+///
+/// `widest` is the width by which the values decay.
+pub(super) fn grazing_mean(count: usize, alpha: f32, widest: f32) -> impl Iterator<Item = (Place, f32)> {
     let last = (count - 1) * STEPS;
     let cos = move |k: f32| grazing_cos(k / last as f32, alpha);
     (0..last).map(move |k| {
         let share = ((k % STEPS) as f32 + 0.5) / STEPS as f32;
         let (low, middle, high) = (cos(k as f32), cos(k as f32 + 0.5), cos((k + 1) as f32));
-        let weight = (high - low) * (high + low) * grazing_decay(middle, alpha);
+        let weight = (high - low) * (high + low) * grazing_decay(middle, widest);
         (Place { index: k / STEPS, share }, weight)
     })
 }

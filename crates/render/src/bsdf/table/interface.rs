@@ -34,7 +34,8 @@ impl Loss {
     /// `scale` is by how much more is lost than at the same width along all tangents.
     pub(crate) fn with(&self, affine: &Affine, scale: f32) -> Rgb {
         let (constant, factor) = affine.line();
-        (scale * (Rgb::splat(self.total) + self.constant * constant + self.factor * factor)).clamp(Rgb::ZERO, Rgb::ONE)
+        (scale * (Rgb::splat(self.total) + self.constant * constant + self.factor * factor))
+            .clamp(Rgb::ZERO, Rgb::ONE)
     }
 
     fn add(&mut self, other: &Self, weight: f32) {
@@ -130,7 +131,7 @@ fn nodes(alpha: f32, eta: f32) -> Nodes {
     let by_cos: [Loss; GRAZING] =
         std::array::from_fn(|x| lost(grazing_cos(x as f32 / (GRAZING - 1) as f32, alpha), alpha, eta));
     let mut mean = Loss::default();
-    for (place, area) in grazing_mean(GRAZING, alpha) {
+    for (place, area) in grazing_mean(GRAZING, alpha, alpha) {
         for (x, share) in place.pair() {
             mean.add(&by_cos[x], area * share / (alpha * alpha));
         }

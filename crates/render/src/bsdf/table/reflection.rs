@@ -187,8 +187,11 @@ impl Reflection {
         match &self.ggx {
             Some(ggx) if !ggx.is_isotropic() => {
                 // From one tangent to the other.
-                let turns = [0.196, 0.589, 0.982, 1.374].map(|angle| Vec2::from_angle(angle).rotate(ggx.tangent()));
-                cosine_mean(&Curve::new(|cos| turns.iter().map(|turn| value(at(cos, *turn))).sum::<Rgb>() / 4.0))
+                let turns =
+                    [0.196, 0.589, 0.982, 1.374].map(|angle| Vec2::from_angle(angle).rotate(ggx.tangent()));
+                cosine_mean(&Curve::new(|cos| {
+                    turns.iter().map(|turn| value(at(cos, *turn))).sum::<Rgb>() / 4.0
+                }))
             }
             _ => cosine_mean(&Curve::new(|cos| value(at(cos, Vec2::X)))),
         }
@@ -222,7 +225,7 @@ static TABLE: LazyLock<Table> = LazyLock::new(|| {
         widths().map(|alpha| std::array::from_fn(|x| lost_at(x, alpha))).collect();
     let mean = |(row, alpha): (&[f32; GRAZING], f32)| {
         let at = |place: Place| place.pair().map(|(x, share)| share * row[x]).iter().sum::<f32>();
-        let sum: f32 = grazing_mean(GRAZING, alpha).map(|(place, area)| area * at(place)).sum();
+        let sum: f32 = grazing_mean(GRAZING, alpha, alpha).map(|(place, area)| area * at(place)).sum();
         sum / (alpha * alpha)
     };
     Table {

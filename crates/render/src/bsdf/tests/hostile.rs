@@ -24,7 +24,10 @@ fn assert_sane(point: &StandardPoint, bsdf: &StandardBsdf, wo: Vec3) {
         if let Some(sample) = bsdf.sample(wo, u) {
             let weight = sample.weight;
             assert!(weight.is_finite() && weight.min_element() >= 0.0, "{point:?} {wo} {u}: {sample:?}");
-            assert!(sample.pdf > 0.0 && (sample.wi.length() - 1.0).abs() < 1e-4, "{point:?} {wo} {u}: {sample:?}");
+            assert!(
+                sample.pdf > 0.0 && (sample.wi.length() - 1.0).abs() < 1e-4,
+                "{point:?} {wo} {u}: {sample:?}"
+            );
         }
         let wi = direction(2.0 * u.x - 1.0, u.y);
         let (value, pdf) = (bsdf.eval(wo, wi), bsdf.pdf(wo, wi));

@@ -48,7 +48,9 @@ type Change = fn(&mut StandardPoint);
 /// Lobes and their combinations, none of which absorbs.
 const LOSSLESS: &[(&str, Change)] = &[
     ("metal", |p| p.metalness = 1.0),
-    ("metal, anisotropic", |p| (p.metalness, p.anisotropy, p.anisotropy_direction) = (1.0, 0.7, Vec2::from_angle(0.6))),
+    ("metal, anisotropic", |p| {
+        (p.metalness, p.anisotropy, p.anisotropy_direction) = (1.0, 0.7, Vec2::from_angle(0.6))
+    }),
     ("matte", |p| p.specular = 0.0),
     ("matte, rough", |p| (p.specular, p.diffuse_roughness) = (0.0, 1.0)),
     ("plastic", |_| ()),

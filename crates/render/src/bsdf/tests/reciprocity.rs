@@ -4,9 +4,9 @@ use super::*;
 
 /// Pairs of directions on the same side, well away from the horizon.
 fn pairs(sign: f32) -> impl Iterator<Item = (Vec3, Vec3)> {
-    lattice(64).zip(lattice(128).skip(64)).map(move |(a, b)| {
-        (direction(0.02 + 0.97 * a.x, a.y), direction(sign * (0.02 + 0.97 * b.x), b.y))
-    })
+    lattice(64)
+        .zip(lattice(128).skip(64))
+        .map(move |(a, b)| (direction(0.02 + 0.97 * a.x, a.y), direction(sign * (0.02 + 0.97 * b.x), b.y)))
 }
 
 /// `f`, the value without the cosine.
