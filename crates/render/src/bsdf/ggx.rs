@@ -106,14 +106,18 @@ impl Ggx {
         (self.turned(w).truncate() * self.alpha).extend(w.z).length()
     }
 
-    /// Share of the facets turned to `wo` that see the light from `wi` as well, among those that see `wo`: `G2 / G1`.
+    /// By how much [`Self::stretched`] exceeds the height, to its last digits.
+    fn excess(&self, w: Vec3) -> f32 {
+        let flat = (self.turned(w).truncate() * self.alpha).length_squared();
+        let sum = self.stretched(w) + w.z.abs();
+        if sum > 0.0 { flat / sum } else { 0.0 }
+    }
+
+    /// Share of the facets seen from `wo` that do not see `wi`: `1 - G2 / G1`, to its last digits where that is small.
     ///
     /// `wi` may be on the other side, where heights count as if it were on this one.
-    pub(crate) fn seen_from(&self, wo: Vec3, wi: Vec3) -> f32 {
-        let (o, i) = (self.stretched(wo), self.stretched(wi));
-        let (zo, zi) = (wo.z.abs(), wi.z.abs());
-        let sum = zi * o + zo * i;
-        if sum > 0.0 { zi * (zo + o) / sum } else { 0.0 }
+    pub(crate) fn hidden(&self, wo: Vec3, wi: Vec3) -> f32 {
+        wo.z * self.excess(wi) * self.correlated(wo, wi)
     }
 
     /// `G2 |wi.z| / |wo.z|`, up to the factor 2 `|wi.z|`: `1 / (|wi.z| |So| + |wo.z| |Si|)`.
@@ -144,9 +148,14 @@ impl Ggx {
         self.density(h) / (2.0 * (self.bound(wo) * wo.z + self.stretched(wo)))
     }
 
-    /// Value over density of `wi` by [`Self::visible_reflecting`], for facets that reflect all light.
-    pub(crate) fn reflecting_weight(&self, wo: Vec3, wi: Vec3) -> f32 {
-        wi.z * self.correlated(wo, wi) * (self.bound(wo) * wo.z + self.stretched(wo))
+    /// One less value over density of `wi` by [`Self::visible_reflecting`], for facets that reflect all light: to its last
+    /// digits where that is small.
+    pub(crate) fn hidden_reflecting(&self, wo: Vec3, wi: Vec3) -> f32 {
+        // How much the cap shrinks: 1 - k of the paper.
+        let a2 = self.alpha.min_element().powi(2);
+        let s2 = (1.0 + wo.truncate().length()).powi(2);
+        let shrunk = a2 * (wo.z * wo.z + s2) / (s2 + a2 * wo.z * wo.z);
+        wo.z * (self.excess(wi) + shrunk * wi.z) * self.correlated(wo, wi)
     }
 
     /// Density of `h` by [`Self::visible`], where `cos` is its scalar product with `wo`.

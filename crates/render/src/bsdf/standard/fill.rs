@@ -34,6 +34,7 @@ pub(super) struct Fill {
     facets: Option<FacetFill>,
     matte: Option<MatteFill>,
     glass: Option<GlassFill>,
+    cover: Option<CoverFill>,
     /// Boundary over the matte part.
     face: Face,
 }
@@ -52,6 +53,27 @@ struct MatteFill {
     up: Matte,
     down: Rgb,
     mean: Rgb,
+}
+
+/// Light of facets that the cover throws back at them: its colour, what passes the cover over the cosine, and the mean of its
+/// profile.
+#[derive(Clone, Copy, Debug)]
+struct CoverFill {
+    color: Rgb,
+    passed: Curve,
+    mean: f32,
+}
+
+impl CoverFill {
+    fn new(base: &Base, cover: &Cover, reflection: &Reflection) -> Self {
+        let color = cosine_mean(&Curve::new(|cos| base.reflected(cos)));
+        let passed = Curve::new(|cos| {
+            let w = Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
+            Rgb::splat(cover.passed(w))
+        });
+        let mean = reflection.mean_around(|w| Rgb::splat(reflection.stopped(&passed, w))).x;
+        Self { color, passed, mean: mean.max(f32::MIN_POSITIVE) }
+    }
 }
 
 /// The boundary of clear matter as a layer.
@@ -90,6 +112,7 @@ impl Fill {
             facets: base.ggx.is_some().then(|| facet_fill(base, cover, &reflection, &face)),
             matte: matte_fill(point, base, cover, &reflection, &face),
             glass: is_bent.then(|| GlassFill::new(base, &reflection)),
+            cover: (base.ggx.is_some() && !cover.is_none()).then(|| CoverFill::new(base, cover, &reflection)),
             face,
         }
     }
@@ -110,6 +133,10 @@ impl Fill {
         }
         if let Some(glass) = &self.glass {
             sum += cover.passed(wo) * glass.times_pi(wo, wi);
+        }
+        if let (Some(CoverFill { color, passed, mean }), true) = (&self.cover, is_up) {
+            let stopped = |w: Vec3| self.reflection.stopped(passed, w);
+            sum += *color * (stopped(wo) * stopped(wi) / mean);
         }
         sum * (wi.z.abs() * FRAC_1_PI)
     }
@@ -133,7 +160,10 @@ impl Fill {
             sum.up += up;
             sum.down += down;
         }
-        Sides { up: passed * sum.up, down: passed * sum.down }
+        let stopped = self.cover.map_or(Rgb::ZERO, |CoverFill { color, passed, .. }| {
+            self.reflection.stopped(&passed, wo) * color
+        });
+        Sides { up: passed * sum.up + stopped, down: passed * sum.down }
     }
 
     /// Share of the light along `wo` that gets through the boundary of clear matter.

@@ -1,6 +1,6 @@
 //! How much light rough boundaries keep at first whose highlights are drawn out.
 
-use super::axis::{Place, grazing_axis, grazing_cos, grazing_mean, node_width};
+use super::axis::{Place, grazing_axis, grazing_cos, grazing_decay, grazing_mean, node_width};
 use crate::bsdf::ggx::Ggx;
 use crate::bsdf::quadrature::gauss_legendre;
 use glam::{Vec2, Vec3};
@@ -17,19 +17,24 @@ const GRAZING: usize = 24;
 const TURNS: usize = 24;
 const CAPS: usize = 16;
 
+/// A width by which nothing decays: across the highlight another width counts at every angle.
+const FLAT: f32 = 1024.0;
+
 /// See [`super::Reflection::lost`].
 pub(super) fn lost(ggx: &Ggx, w: Vec3) -> f32 {
-    let axis = grazing_axis(w.z.abs().min(1.0), ggx.width_along(w));
+    let (cos, alpha) = (w.z.abs().min(1.0), ggx.width_along(w));
+    let axis = grazing_axis(cos, alpha);
     let (turn, x) = (Place::even(ggx.turn_of(w) / FRAC_PI_2, TURN), Place::even(axis, GRAZING));
-    sum_over(ggx, |nodes| {
-        let mut sum = 0.0;
-        for (t, at_turn) in turn.pair() {
-            for (c, at_cos) in x.pair() {
-                sum += at_turn * at_cos * nodes.lost[t][c];
+    grazing_decay(cos, FLAT)
+        * sum_over(ggx, |nodes| {
+            let mut sum = 0.0;
+            for (t, at_turn) in turn.pair() {
+                for (c, at_cos) in x.pair() {
+                    sum += at_turn * at_cos * nodes.lost[t][c];
+                }
             }
-        }
-        sum
-    })
+            sum
+        })
 }
 
 /// See [`super::Reflection::lost_mean`].
@@ -53,7 +58,7 @@ fn sum_over(ggx: &Ggx, value: impl Fn(&Nodes) -> f32) -> f32 {
     sum
 }
 
-/// Light kept at one width and strength, by turn and cosine; and its mean over [`mean_square`].
+/// Light kept at one width and strength, by turn and cosine, over [`grazing_decay`]; and its mean over [`mean_square`].
 struct Nodes {
     lost: [[f32; GRAZING]; TURN],
     mean: f32,
@@ -73,12 +78,13 @@ fn nodes(ggx: &Ggx) -> Nodes {
         let alpha = ggx.width_along(turn(t).extend(0.0));
         for (x, value) in row.iter_mut().enumerate() {
             let cos = grazing_cos(x as f32 / (GRAZING - 1) as f32, alpha);
-            *value = lost_at(ggx, ((1.0 - cos * cos).max(0.0).sqrt() * turn(t)).extend(cos));
+            let wo = ((1.0 - cos * cos).max(0.0).sqrt() * turn(t)).extend(cos);
+            *value = lost_at(ggx, wo) / grazing_decay(cos, FLAT);
         }
         let at = |place: Place| place.pair().map(|(x, share)| share * row[x]).iter().sum::<f32>();
         // The trapezoid's rule over the turns.
         let share = if t == 0 || t == TURN - 1 { 0.5 } else { 1.0 } / (TURN - 1) as f32;
-        mean += share * grazing_mean(GRAZING, alpha).map(|(place, area)| area * at(place)).sum::<f32>();
+        mean += share * grazing_mean(GRAZING, alpha, FLAT).map(|(place, area)| area * at(place)).sum::<f32>();
     }
     Nodes { lost, mean: mean / mean_square(ggx) }
 }
@@ -90,9 +96,9 @@ fn lost_at(ggx: &Ggx, wo: Vec3) -> f32 {
         for turn in 0..TURNS {
             let h = ggx.visible_reflecting(wo, Vec2::new((turn as f32 + 0.5) / TURNS as f32, y));
             let wi = 2.0 * wo.dot(h) * h - wo;
-            let seen = if wi.z > 0.0 { ggx.reflecting_weight(wo, wi) } else { 0.0 };
-            sum += weight / TURNS as f32 * (1.0 - seen);
+            let hidden = if wi.z > 0.0 { ggx.hidden_reflecting(wo, wi) } else { 1.0 };
+            sum += weight / TURNS as f32 * hidden;
         }
     }
-    sum.max(0.0)
+    sum
 }

@@ -58,16 +58,26 @@ pub(super) fn grazing_cos(x: f32, alpha: f32) -> f32 {
     alpha * s * s / (1.0 - s)
 }
 
+/// About how much less is lost at an angle of cosine `cos` than at a grazing one: tables hold what is left to tell.
+pub(super) fn grazing_decay(cos: f32, alpha: f32) -> f32 {
+    let sum = alpha * alpha + cos * cos;
+    if sum > 0.0 { alpha * alpha / sum } else { 1.0 }
+}
+
 /// Steps of [`grazing_mean`] between two nodes.
 const STEPS: usize = 16;
 
-/// The mean over the hemisphere, weighted by the cosine, of what is known at `count` even nodes of [`grazing_axis`] and
-/// linear between them: for each of many steps the node before, the way to the next one, and the weight.
-pub(super) fn grazing_mean(count: usize, alpha: f32) -> impl Iterator<Item = (Place, f32)> {
+/// The mean over the hemisphere, weighted by the cosine, of what is known over [`grazing_decay`] at `count` even nodes of
+/// [`grazing_axis`] and linear between them: for each of many steps the node before, the way to the next one, and the weight.
+///
+/// `widest` is the width by which the values decay.
+pub(super) fn grazing_mean(count: usize, alpha: f32, widest: f32) -> impl Iterator<Item = (Place, f32)> {
     let last = (count - 1) * STEPS;
-    let area = move |k: usize| grazing_cos(k as f32 / last as f32, alpha).powi(2);
+    let cos = move |k: f32| grazing_cos(k / last as f32, alpha);
     (0..last).map(move |k| {
         let share = ((k % STEPS) as f32 + 0.5) / STEPS as f32;
-        (Place { index: k / STEPS, share }, area(k + 1) - area(k))
+        let (low, middle, high) = (cos(k as f32), cos(k as f32 + 0.5), cos((k + 1) as f32));
+        let weight = (high - low) * (high + low) * grazing_decay(middle, widest);
+        (Place { index: k / STEPS, share }, weight)
     })
 }

@@ -1,6 +1,6 @@
 //! How much light rough glass loses where facets shadow each other, in both directions.
 
-use super::axis::{Place, grazing_axis, grazing_cos, grazing_mean, node_width};
+use super::axis::{Place, grazing_axis, grazing_cos, grazing_decay, grazing_mean, node_width};
 use crate::bsdf::fresnel::{Affine, refraction};
 use crate::bsdf::ggx::Ggx;
 use crate::bsdf::quadrature::gauss_legendre;
@@ -67,9 +67,10 @@ impl Interface {
     pub(crate) fn loss(&self, cos: f32) -> Loss {
         let place = Place::even(grazing_axis(cos, self.alpha), GRAZING);
         let mut loss = Loss::default();
+        let decay = grazing_decay(cos, self.alpha);
         self.each(|nodes, weight| {
             for (x, share) in place.pair() {
-                loss.add(&nodes.by_cos[x], weight * share);
+                loss.add(&nodes.by_cos[x], weight * share * decay);
             }
         });
         loss
@@ -108,6 +109,7 @@ fn critical(ior: f32) -> f32 {
 
 /// Light lost at one width and index.
 struct Nodes {
+    /// Over [`grazing_decay`].
     by_cos: [Loss; GRAZING],
     /// Over the square of the width, as it grows.
     mean: Loss,
@@ -129,7 +131,7 @@ fn nodes(alpha: f32, eta: f32) -> Nodes {
     let by_cos: [Loss; GRAZING] =
         std::array::from_fn(|x| lost(grazing_cos(x as f32 / (GRAZING - 1) as f32, alpha), alpha, eta));
     let mut mean = Loss::default();
-    for (place, area) in grazing_mean(GRAZING, alpha) {
+    for (place, area) in grazing_mean(GRAZING, alpha, alpha) {
         for (x, share) in place.pair() {
             mean.add(&by_cos[x], area * share / (alpha * alpha));
         }
@@ -142,10 +144,11 @@ fn lost(cos: f32, alpha: f32, eta: f32) -> Loss {
     let ggx = Ggx::isotropic(alpha);
     let wo = Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
     let mut loss = Loss::default();
+    let decay = grazing_decay(cos, alpha);
     for (y, weight) in gauss_legendre::<CAPS>() {
         for turn in 0..TURNS {
             let u = Vec2::new((turn as f32 + 0.5) / (2 * TURNS) as f32, y);
-            loss.add(&lost_at(&ggx, wo, ggx.visible(wo, u), eta), weight / TURNS as f32);
+            loss.add(&lost_at(&ggx, wo, ggx.visible(wo, u), eta), weight / (decay * TURNS as f32));
         }
     }
     loss
@@ -155,13 +158,13 @@ fn lost(cos: f32, alpha: f32, eta: f32) -> Loss {
 fn lost_at(ggx: &Ggx, wo: Vec3, h: Vec3, eta: f32) -> Loss {
     let cos = wo.dot(h).clamp(0.0, 1.0);
     let mirrored = 2.0 * cos * h - wo;
-    let reflected = if mirrored.z > 0.0 { ggx.seen_from(wo, mirrored) } else { 0.0 };
+    let kept = if mirrored.z > 0.0 { ggx.hidden(wo, mirrored) } else { 1.0 };
     let exact = refraction(cos, eta);
     if exact.cos == 0.0 {
-        return Loss { total: 1.0 - reflected, ..Loss::default() };
+        return Loss { total: kept, ..Loss::default() };
     }
     let bent = refract(wo, h, cos, exact.cos, eta);
-    let passed = if bent.z < 0.0 { ggx.seen_from(wo, bent) } else { 0.0 };
-    let swapped = passed - reflected;
-    Loss { total: 1.0 - passed, constant: swapped, factor: exact.reflectance * swapped }
+    let stopped = if bent.z < 0.0 { ggx.hidden(wo, bent) } else { 1.0 };
+    let swapped = kept - stopped;
+    Loss { total: stopped, constant: swapped, factor: exact.reflectance * swapped }
 }

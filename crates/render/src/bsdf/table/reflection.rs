@@ -1,7 +1,7 @@
 //! How much light rough boundaries reflect, once, for any curve of reflectance over the angle.
 
 use super::anisotropic;
-use super::axis::{Place, grazing_axis, grazing_cos, grazing_mean, node_width};
+use super::axis::{Place, grazing_axis, grazing_cos, grazing_decay, grazing_mean, node_width};
 use crate::bsdf::ggx::Ggx;
 use crate::bsdf::quadrature::gauss_legendre;
 use glam::{Vec2, Vec3};
@@ -34,6 +34,13 @@ impl Curve {
         let sum: Rgb = self.0.iter().zip(weights).map(|(&value, &weight)| value * weight).sum();
         // Cubic weights swing below 0.
         sum.max(Rgb::ZERO)
+    }
+}
+
+impl Curve {
+    /// The first channel at a cosine.
+    fn at(&self, cos: f32) -> f32 {
+        self.sum(&between_nodes(cos)).x
     }
 }
 
@@ -99,7 +106,7 @@ impl Reflection {
                 sum += at_width * at_cos * TABLE.lost[width][x];
             }
         }
-        sum
+        sum * grazing_decay(cos, ggx.mean_alpha())
     }
 
     /// The mean of [`Self::lost`] over the hemisphere, weighted by the cosine; above 0.
@@ -145,6 +152,25 @@ impl Reflection {
         curve.sum(&weights)
     }
 
+    /// Of white light, what facets send to a viewer along `w` from more grazing directions and what a cover stops of it, because
+    /// it lets the smaller of what passes along either direction; `passed` is that over the cosine.
+    pub(crate) fn stopped(&self, passed: &Curve, w: Vec3) -> f32 {
+        let Some(ggx) = &self.ggx else { return 0.0 };
+        let cos = w.z.abs().min(1.0);
+        let width = Place::width(ggx.width_along(w), WIDTH);
+        let here = passed.at(cos);
+        let steps = LOWER.map(|lower| (here - passed.at(cos * (1.0 - lower))).max(0.0));
+        let mut sum = 0.0;
+        for (width, at_width) in width.pair() {
+            for (c, at_cos) in Place::even(cos.sqrt(), COS).pair() {
+                for (step, weight) in steps.iter().zip(&TABLE.lower[width][c]) {
+                    sum += at_width * at_cos * step * weight;
+                }
+            }
+        }
+        sum.max(0.0)
+    }
+
     /// What is left, per unit of light that facets keep at first, of the light that they throw at each other until it leaves.
     ///
     /// # Source
@@ -179,13 +205,19 @@ pub(crate) fn cosine_mean(curve: &Curve) -> Rgb {
 
 /// See [`Reflection`]; the first index is that of the width.
 struct Table {
+    /// Over [`grazing_decay`].
     lost: Vec<[f32; GRAZING]>,
     /// Over the square of the width, as it grows.
     lost_mean: Vec<f32>,
     /// Weights of the nodes of a curve, which add up to 1.
     angles: Vec<[[f32; CURVE]; COS]>,
     angles_mean: Vec<[f32; CURVE]>,
+    /// Weights of what a function of the cosine of the light loses at each of [`LOWER`], in light from lower than the viewer.
+    lower: Vec<[[f32; LOWER.len()]; COS]>,
 }
+
+/// How much lower than the viewer, as a share of the cosine.
+const LOWER: [f32; 6] = [0.1, 0.25, 0.45, 0.65, 0.85, 1.0];
 
 static TABLE: LazyLock<Table> = LazyLock::new(|| {
     let widths = || (0..WIDTH).map(|w| node_width(w, WIDTH));
@@ -193,7 +225,7 @@ static TABLE: LazyLock<Table> = LazyLock::new(|| {
         widths().map(|alpha| std::array::from_fn(|x| lost_at(x, alpha))).collect();
     let mean = |(row, alpha): (&[f32; GRAZING], f32)| {
         let at = |place: Place| place.pair().map(|(x, share)| share * row[x]).iter().sum::<f32>();
-        let sum: f32 = grazing_mean(GRAZING, alpha).map(|(place, area)| area * at(place)).sum();
+        let sum: f32 = grazing_mean(GRAZING, alpha, alpha).map(|(place, area)| area * at(place)).sum();
         sum / (alpha * alpha)
     };
     Table {
@@ -201,12 +233,13 @@ static TABLE: LazyLock<Table> = LazyLock::new(|| {
         lost,
         angles: widths().map(|alpha| std::array::from_fn(|c| angles_at(c, alpha))).collect(),
         angles_mean: widths().map(angles_mean_at).collect(),
+        lower: widths().map(|alpha| std::array::from_fn(|c| lower_at(c, alpha))).collect(),
     }
 });
 
 fn lost_at(x: usize, alpha: f32) -> f32 {
     let cos = grazing_cos(x as f32 / (GRAZING - 1) as f32, alpha);
-    facets(cos, alpha).into_iter().map(|(_, weight, seen)| weight * (1.0 - seen)).sum::<f32>().max(0.0)
+    facets(cos, alpha).iter().map(|node| node.weight * node.hidden).sum::<f32>() / grazing_decay(cos, alpha)
 }
 
 fn angles_at(c: usize, alpha: f32) -> [f32; CURVE] {
@@ -219,9 +252,27 @@ fn angles_at(c: usize, alpha: f32) -> [f32; CURVE] {
 /// Weights of the nodes of a curve, in the light that is sent on at once.
 fn curve_weights(cos: f32, alpha: f32) -> [f32; CURVE] {
     let mut weights = [0.0; CURVE];
-    for (cos, share, seen) in facets(cos, alpha) {
-        for (sum, weight) in weights.iter_mut().zip(between_nodes(cos)) {
-            *sum += share * seen * weight;
+    for node in facets(cos, alpha) {
+        for (sum, weight) in weights.iter_mut().zip(between_nodes(node.cos)) {
+            *sum += node.weight * (1.0 - node.hidden) * weight;
+        }
+    }
+    weights
+}
+
+/// Weights, at [`LOWER`], of what is 0 at the viewer's cosine and linear between, in the light from lower that is sent on.
+fn lower_at(c: usize, alpha: f32) -> [f32; LOWER.len()] {
+    let cos = (c as f32 / (COS - 1) as f32).powi(2);
+    let mut weights = [0.0; LOWER.len()];
+    for node in facets(cos, alpha).iter().filter(|node| node.height < cos) {
+        let lower = ((cos - node.height) / cos).clamp(0.0, 1.0);
+        let next = LOWER.iter().position(|at| lower <= *at).unwrap_or(LOWER.len() - 1);
+        let before = next.checked_sub(1).map_or(0.0, |k| LOWER[k]);
+        let share = (lower - before) / (LOWER[next] - before);
+        let light = node.weight * (1.0 - node.hidden);
+        weights[next] += light * share;
+        if next > 0 {
+            weights[next - 1] += light * (1.0 - share);
         }
     }
     weights
@@ -240,9 +291,19 @@ fn angles_mean_at(alpha: f32) -> [f32; CURVE] {
     sum
 }
 
-/// Nodes of the integral over the facets that a viewer sees: the cosine between the two, the weight, and the light that the
-/// facet sends on at once.
-fn facets(cos: f32, alpha: f32) -> Vec<(f32, f32, f32)> {
+/// A node of the integral over the facets that a viewer sees.
+struct FacetNode {
+    /// Cosine between facet and viewer.
+    cos: f32,
+    /// Cosine of the light that it reflects.
+    height: f32,
+    weight: f32,
+    /// Share of the light that it keeps at first.
+    hidden: f32,
+}
+
+/// The integral over the facets that a viewer sees.
+fn facets(cos: f32, alpha: f32) -> Vec<FacetNode> {
     let ggx = Ggx::isotropic(alpha);
     let wo = Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
     let mut nodes = Vec::with_capacity(TURNS * CAPS);
@@ -252,8 +313,9 @@ fn facets(cos: f32, alpha: f32) -> Vec<(f32, f32, f32)> {
             let h = ggx.visible_reflecting(wo, u);
             let cos = wo.dot(h);
             let wi = 2.0 * cos * h - wo;
-            let seen = if wi.z > 0.0 { ggx.reflecting_weight(wo, wi) } else { 0.0 };
-            nodes.push((cos.clamp(0.0, 1.0), weight / TURNS as f32, seen));
+            let hidden = if wi.z > 0.0 { ggx.hidden_reflecting(wo, wi) } else { 1.0 };
+            let (cos, weight) = (cos.clamp(0.0, 1.0), weight / TURNS as f32);
+            nodes.push(FacetNode { cos, height: wi.z, weight, hidden });
         }
     }
     nodes

@@ -2,10 +2,9 @@
 
 use super::*;
 use crate::bsdf::standard::view::{View, WAYS};
-use std::fmt::Write;
 
 /// Nodes of the integral over the draws of each way, along either number.
-const NODES: usize = 160;
+const NODES: usize = 128;
 
 /// The light that a furnace sends to a viewer: the integral over all draws of their weights, way by way.
 fn furnace(bsdf: &StandardBsdf, wo: Vec3) -> Rgb {
@@ -44,33 +43,44 @@ fn worst(bsdf: &StandardBsdf) -> (f32, f32) {
     (above, below)
 }
 
-#[test]
-fn bsdf_furnace_table() {
-    let mut report = String::new();
-    let start = std::time::Instant::now();
-    crate::bsdf::table::Interface::of(0.5, 1.5).loss_mean();
-    println!("interface {:?}", start.elapsed());
-    let start = std::time::Instant::now();
-    crate::bsdf::table::Reflection::of(None).lost_mean();
-    println!("reflection {:?}", start.elapsed());
-    for (name, change) in LOSSLESS {
-        let _ = write!(report, "{name:26}");
-        if std::env::var("ONLY").is_ok_and(|only| !name.contains(&only)) {
-            continue;
-        }
-        for roughness in ROUGHNESS {
-            if std::env::var("ONLY").is_ok() {
-                let bsdf = outside(&rough(*change, roughness));
-                println!(
-                    "{name} {roughness}: {:?}",
-                    COSINES.map(|c| ((furnace(&bsdf, viewer(c)) - 1.0) * 1e4).round().to_array())
-                );
-            }
-            let (above, below) = worst(&outside(&rough(*change, roughness)));
-            let error = if above > -below { above } else { below };
-            let _ = write!(report, " {:7.2}", 1e3 * error);
-        }
-        report.push('\n');
+/// How much of the light a lobe may lose, and make, in thousandths: what is known of it, a little rounded.
+///
+/// The goal is 1. What does not reach it is told of by approximation: tables that are linear between their nodes, matte facets
+/// under a boundary, drawn-out highlights of glass, films over rough glass, and layers between two rough ones.
+fn bound(name: &str) -> (f32, f32) {
+    match name {
+        "metal" | "plastic, ior 0" | "thin glass" => (11.0, 2.0),
+        "metal, anisotropic" => (8.0, 8.0),
+        "plastic, rough matte" | "coat over rough matte" => (21.0, 2.0),
+        "plastic, anisotropic" => (20.0, 4.0),
+        "glass, anisotropic" => (125.0, 10.0),
+        "glass, film" => (5.0, 29.0),
+        "glass, ior 0.7" => (11.0, 11.0),
+        "coat over plastic" | "coat over sheen" => (17.0, 2.5),
+        "sheen over metal" => (2.0, 6.0),
+        "coat over glass" | "all layers" => (6.0, 5.0),
+        _ => (4.0, 4.5),
     }
-    println!("{report}");
+}
+
+#[test]
+fn bsdf_furnace_is_white() {
+    for (name, change) in LOSSLESS {
+        let (less, more) = bound(name);
+        for roughness in [0.0, 0.1, 0.3, 0.6, 1.0] {
+            let (above, below) = worst(&outside(&rough(*change, roughness)));
+            assert!(1e3 * above < more && -1e3 * below < less, "{name}, {roughness}: {above} and {below}");
+        }
+    }
+}
+
+#[test]
+fn bsdf_furnace_is_white_inside() {
+    for (name, change) in LOSSLESS.iter().filter(|(name, _)| ["glass", "glass, ior 2.4"].contains(name)) {
+        for roughness in [0.0, 0.1, 0.3, 0.6, 1.0] {
+            let point = rough(*change, roughness);
+            let (above, below) = worst(&StandardBsdf::new(&point, false, Vec3::Z));
+            assert!(above < 0.012 && below > -0.012, "{name}, {roughness}: {above} and {below}");
+        }
+    }
 }

@@ -21,7 +21,7 @@ fn extremes() -> Vec<StandardPoint> {
 
 fn assert_sane(point: &StandardPoint, bsdf: &StandardBsdf, wo: Vec3) {
     for u in lattice(48) {
-        if let Some(sample) = bsdf.sample(wo, u) {
+        if let Some(sample) = bsdf.seen_from(wo).sample(u) {
             let weight = sample.weight;
             assert!(weight.is_finite() && weight.min_element() >= 0.0, "{point:?} {wo} {u}: {sample:?}");
             assert!(
@@ -30,11 +30,11 @@ fn assert_sane(point: &StandardPoint, bsdf: &StandardBsdf, wo: Vec3) {
             );
         }
         let wi = direction(2.0 * u.x - 1.0, u.y);
-        let (value, pdf) = (bsdf.eval(wo, wi), bsdf.pdf(wo, wi));
+        let (value, pdf) = (bsdf.seen_from(wo).answer(wi).0, bsdf.seen_from(wo).answer(wi).1);
         assert!(value.is_finite() && value.min_element() >= 0.0, "{point:?} {wo} {wi}: {value}");
         assert!(pdf.is_finite() && pdf >= 0.0, "{point:?} {wo} {wi}: {pdf}");
     }
-    let albedo = bsdf.albedo(wo);
+    let albedo = bsdf.seen_from(wo).albedo();
     assert!(albedo.is_finite() && albedo.min_element() >= 0.0, "{point:?} {wo}: {albedo}");
 }
 

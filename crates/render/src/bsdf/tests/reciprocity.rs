@@ -11,7 +11,7 @@ fn pairs(sign: f32) -> impl Iterator<Item = (Vec3, Vec3)> {
 
 /// `f`, the value without the cosine.
 fn f(bsdf: &StandardBsdf, wo: Vec3, wi: Vec3) -> Rgb {
-    bsdf.eval(wo, wi) / wi.z.abs()
+    bsdf.seen_from(wo).answer(wi).0 / wi.z.abs()
 }
 
 /// The largest difference between two colours, over their size.
