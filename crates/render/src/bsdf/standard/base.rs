@@ -23,7 +23,7 @@ pub(super) enum Passage {
 /// What facets of the base reflect and let through.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Base {
-    /// `None` for a smooth base.
+    /// `None` for a smooth base, and for one that reflects nothing.
     pub(super) ggx: Option<Ggx>,
     /// Share of metal; the rest is clear matter.
     pub(super) metalness: f32,
@@ -38,7 +38,10 @@ pub(super) struct Base {
 
 impl Base {
     pub(super) fn new(point: &StandardPoint, is_outside: bool) -> Self {
-        let ggx = Ggx::new(point.roughness, point.anisotropy, point.anisotropy_direction);
+        let has_facets =
+            point.specular > 0.0 || point.film > 0.0 || point.metalness > 0.0 || point.transmission > 0.0;
+        let ggx =
+            Ggx::new(point.roughness, point.anisotropy, point.anisotropy_direction).filter(|_| has_facets);
         let film = (point.film, point.film_ior, point.film_thickness);
         let clear = Clear::new(point, is_outside);
         let passage = passage(point, ggx.as_ref(), clear.eta().x);

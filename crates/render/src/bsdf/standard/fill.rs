@@ -81,11 +81,16 @@ impl CoverFill {
 struct Face {
     curve: Curve,
     between: Rgb,
+    /// Whether it reflects nothing.
+    is_dark: bool,
 }
 
 impl Face {
     /// Share of the light along `w` that gets through.
     fn passed(&self, reflection: &Reflection, w: Vec3) -> Rgb {
+        if self.is_dark {
+            return Rgb::ONE;
+        }
         let kept = reflection.albedo(&self.curve, w) + self.between * reflection.lost(w);
         (Rgb::ONE - kept).clamp(Rgb::ZERO, Rgb::ONE)
     }
@@ -105,7 +110,7 @@ impl Fill {
     pub(super) fn new(point: &StandardPoint, base: &Base, cover: &Cover) -> Self {
         let reflection = Reflection::of(base.ggx);
         let curve = Curve::new(|cos| base.clear.reflectance(cos));
-        let face = Face { curve, between: reflection.between(&curve) };
+        let face = Face { curve, between: reflection.between(&curve), is_dark: curve.is_zero() };
         let is_bent = base.passage == Passage::Bent && base.ggx.is_some();
         Self {
             reflection,

@@ -30,6 +30,11 @@ impl Curve {
         Self(std::array::from_fn(|k| reflectance(node_cos(k))))
     }
 
+    /// Whether it is 0 at every angle.
+    pub(crate) fn is_zero(&self) -> bool {
+        self.0 == [Rgb::ZERO; CURVE]
+    }
+
     fn sum(&self, weights: &[f32; CURVE]) -> Rgb {
         let sum: Rgb = self.0.iter().zip(weights).map(|(&value, &weight)| value * weight).sum();
         // Cubic weights swing below 0.
