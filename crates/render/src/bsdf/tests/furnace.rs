@@ -51,10 +51,10 @@ fn bound(name: &str) -> (f32, f32) {
     match name {
         "metal" | "plastic, ior 0" | "thin glass" => (11.0, 2.0),
         "metal, anisotropic" => (8.0, 8.0),
-        "plastic, rough matte" | "coat over rough matte" => (21.0, 2.0),
+        "plastic, rough matte" | "coat over rough matte" => (21.0, 7.0),
         "plastic, anisotropic" => (20.0, 4.0),
         "glass, anisotropic" => (125.0, 10.0),
-        "glass, film" => (5.0, 29.0),
+        "glass, film" => (7.0, 29.0),
         "glass, ior 0.7" => (11.0, 11.0),
         "coat over plastic" | "coat over sheen" => (17.0, 2.5),
         "sheen over metal" => (2.0, 6.0),
