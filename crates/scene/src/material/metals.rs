@@ -6,9 +6,8 @@ use crate::color::Rgb;
 /// Names, `n` and `k` at 650, 550 and 450 nanometres.
 ///
 /// # Source
-/// <https://refractiveindex.info>, shelf 3D, "selected data for 3D artists": silver, copper, gold, chromium, iron and titanium
-/// by Johnson and Christy (1972, 1974); aluminium and mercury by `McPeak` et al. (2015) and Inagaki et al. (1981); platinum by
-/// Rakić et al. (1998); brass by Querry (1985); lead by Ordal et al.
+/// <https://refractiveindex.info>, as collected in <https://chris.hindefjord.se/resources/rgb-ior-metals>; chromium as in the
+/// material standard of LabPBR.
 const METALS: [(&str, Rgb, Rgb); 10] = [
     ("aluminium", Rgb::new(1.3456, 0.96521, 0.61722), Rgb::new(7.4746, 6.3995, 5.3031)),
     ("brass", Rgb::new(0.444, 0.527, 1.094), Rgb::new(3.695, 2.765, 1.829)),

@@ -49,7 +49,7 @@ type Change = fn(&mut StandardPoint);
 const LOSSLESS: &[(&str, Change)] = &[
     ("metal", |p| p.metalness = 1.0),
     ("metal, anisotropic", |p| {
-        (p.metalness, p.anisotropy, p.anisotropy_direction) = (1.0, 0.7, Vec2::from_angle(0.6))
+        (p.metalness, p.anisotropy, p.anisotropy_direction) = (1.0, 0.7, Vec2::from_angle(0.6));
     }),
     ("matte", |p| p.specular = 0.0),
     ("matte, rough", |p| (p.specular, p.diffuse_roughness) = (0.0, 1.0)),
