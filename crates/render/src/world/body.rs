@@ -1,6 +1,6 @@
 //! What there is in local space, and what rays find there.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use heliostat_geometry::shape::Root;
 use heliostat_geometry::{Hit, Ray, Shape, Transform, TriMesh};
 use heliostat_index::{MeshHit, MeshTree, TraversalCost};
@@ -41,13 +41,25 @@ pub(crate) struct SurfaceAt {
     pub(crate) local: Vec3,
     /// Material slot.
     pub(crate) slot: u16,
+    /// The second set of surface parameters; the first one where there is only that.
+    pub(crate) uv1: Vec2,
     /// Interpolated vertex colour.
     pub(crate) color: Option<Vec3>,
+    /// Interpolated vertex coverage.
+    pub(crate) coverage: f32,
     /// Triangle and weights of its corners.
     pub(crate) triangle: Option<(u32, [f32; 3])>,
 }
 
 impl Body<'_> {
+    /// Whether some of it covers less than all, whatever its material says.
+    pub(super) fn has_holes(&self) -> bool {
+        match self {
+            Self::Shape(_) => false,
+            Self::Mesh { mesh, .. } => !mesh.opacities.is_empty(),
+        }
+    }
+
     /// The nearest meeting in the range of the ray; `place` is the map to world space.
     #[inline]
     pub(super) fn closest(&self, place: &Transform, ray: &Ray) -> Option<(f32, Meeting)> {
@@ -136,7 +148,9 @@ impl Body<'_> {
                     hit: place.hit_to_world(&local),
                     local: local.p.as_vec3(),
                     slot: 0,
+                    uv1: local.uv,
                     color: None,
+                    coverage: 1.0,
                     triangle: None,
                 })
             }
@@ -146,7 +160,9 @@ impl Body<'_> {
                     hit: place.hit_to_world(&local),
                     local: local.p.as_vec3(),
                     slot: mesh.slot(triangle),
+                    uv1: mesh.second_uv(triangle, &hit).unwrap_or(local.uv),
                     color: mesh.color(triangle, &hit),
+                    coverage: mesh.opacity(triangle, &hit),
                     triangle: Some((triangle, hit.barycentric)),
                 })
             }

@@ -74,7 +74,8 @@ impl Filter<'_> {
     /// The surface in one place.
     fn pane_at(&self, surface: &SurfaceAt) -> Pane {
         let material: &Material = &self.scene.materials[self.object.material(surface.slot).index()];
-        let at = TexturePoint { uv: surface.hit.uv, local: surface.local };
+        let SurfaceAt { hit, uv1, local, coverage, .. } = *surface;
+        let at = TexturePoint { uv: hit.uv, uv1, local, coverage };
         let eval = MaterialEval { textures: &self.scene.textures, at };
         let phong = &*material.surface.phong();
         self.pane(eval.opacity(material), eval.color(&phong.transparency), phong)
