@@ -5,12 +5,14 @@
 use super::document::Document;
 use super::flaw::Flaw;
 use super::motion::Stage;
+use crate::obj::unique;
 use glam::{DAffine3, DMat3};
 use gltf::json::camera::{self, Orthographic, Perspective};
 use gltf::json::validation::Checked;
 use heliostat_geometry::Aabb;
 use heliostat_scene::camera::Projection;
 use heliostat_scene::{Camera, Motion};
+use std::collections::HashSet;
 use std::f32::consts::PI;
 
 /// The camera of a node, if it has one, for pictures of the shape `aspect`.
@@ -38,6 +40,14 @@ pub(super) fn of_node(
     let poses = stage.poses(node, Aabb::EMPTY, unscaled);
     let motion = Motion::through(poses).unwrap_or(Motion::still(DAffine3::IDENTITY));
     Ok(Some(Camera { name: name(document, node, index), motion, projection, focus: None }))
+}
+
+/// The names of the cameras of some nodes, as scenes give them.
+pub(super) fn names(document: &Document, nodes: &[usize]) -> Vec<String> {
+    let mut taken = HashSet::new();
+    let camera = |&node: &usize| Some((node, document.root.nodes[node].camera?.value()));
+    let known = nodes.iter().filter_map(camera).filter(|(_, camera)| *camera < document.root.cameras.len());
+    known.map(|(node, camera)| unique(name(document, node, camera), &mut taken)).collect()
 }
 
 fn name(document: &Document, node: usize, camera: usize) -> String {

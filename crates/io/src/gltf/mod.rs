@@ -139,6 +139,11 @@ impl GltfModel {
         self.tracks.last_key()
     }
 
+    /// The names of the cameras that scenes have.
+    pub fn camera_names(&self) -> Vec<String> {
+        cameras::names(&self.document, &self.nodes.shown)
+    }
+
     /// The names of the variants of its materials.
     pub fn variants(&self) -> &[String] {
         &self.variants
