@@ -85,7 +85,12 @@ pub(super) fn of(model: &GltfModel) -> Contents {
         points_and_lines: primitives().filter(|primitive| drawn(primitive) != Drawn::Triangles).count(),
         materials: root.materials.iter().enumerate().map(|(i, m)| named(&m.name, "material", i)).collect(),
         textures: (0..root.textures.len()).map(texture).collect(),
-        cameras: root.cameras.iter().enumerate().map(|(i, camera)| named(&camera.name, "camera", i)).collect(),
+        cameras: root
+            .cameras
+            .iter()
+            .enumerate()
+            .map(|(i, camera)| named(&camera.name, "camera", i))
+            .collect(),
         lights: model.lights.names(),
         animations: root.animations.iter().enumerate().map(animation).collect(),
         skins: root.skins.iter().enumerate().map(skin).collect(),

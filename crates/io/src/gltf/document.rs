@@ -124,7 +124,8 @@ impl Document {
         let view =
             views.get(index).ok_or_else(|| Flaw::dangling(place, "bufferViews", index, views.len()))?;
         let offset = view.byte_offset.map_or(0, |offset| offset.0);
-        let bytes = self.part(view.buffer.value(), offset, view.byte_length.0, &format!("bufferViews[{index}]"))?;
+        let bytes =
+            self.part(view.buffer.value(), offset, view.byte_length.0, &format!("bufferViews[{index}]"))?;
         Ok((bytes, view))
     }
 

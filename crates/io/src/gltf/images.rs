@@ -92,7 +92,9 @@ impl Images {
 /// The image that a texture shows: one that is read before one that stands for those who cannot.
 pub(super) fn source(document: &Document, texture: usize) -> Result<usize, Flaw> {
     let textures = &document.root.textures;
-    let json = textures.get(texture).ok_or_else(|| Flaw::dangling("materials", "textures", texture, textures.len()))?;
+    let json = textures
+        .get(texture)
+        .ok_or_else(|| Flaw::dangling("materials", "textures", texture, textures.len()))?;
     let place = format!("textures[{texture}]");
     let others = json.extensions.as_ref().map(|extensions| &extensions.others);
     if let Some(webp) = extension::<Source>(others, "EXT_texture_webp", &place)? {

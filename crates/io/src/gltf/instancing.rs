@@ -4,8 +4,8 @@ use super::accessor::Accessor;
 use super::document::Document;
 use super::extensions::extension;
 use super::flaw::Flaw;
-use gltf::json::accessor::Type;
 use glam::{DAffine3, DQuat, DVec3};
+use gltf::json::accessor::Type;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 

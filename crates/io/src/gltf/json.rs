@@ -13,7 +13,8 @@ use serde_json::Value;
 /// When it is none, or does not have the form of glTF.
 pub(super) fn parse(text: &[u8]) -> Result<Root, Flaw> {
     // What is wrong is told of the file as it is, not as it was mended.
-    let root: Root = serde_json::from_slice(text).or_else(|error| mended(text).ok_or_else(|| damaged(&error)))?;
+    let root: Root =
+        serde_json::from_slice(text).or_else(|error| mended(text).ok_or_else(|| damaged(&error)))?;
     let version = &root.asset.version;
     if version.split('.').next() != Some("2") {
         let message = format!("is glTF {version}");
@@ -46,7 +47,8 @@ mod tests {
 
     #[test]
     fn what_gltf_leaves_free_may_be_left_out() {
-        let text = br#"{"asset": {"version": "2.0"}, "scenes": [{}], "animations": [{"samplers": [], "channels": [
+        let text =
+            br#"{"asset": {"version": "2.0"}, "scenes": [{}], "animations": [{"samplers": [], "channels": [
             {"sampler": 0, "target": {"path": "pointer"}}]}]}"#;
         let root = parse(text).unwrap();
         assert!(root.scenes[0].nodes.is_empty() && root.animations[0].channels.is_empty());

@@ -120,7 +120,12 @@ impl Lights {
         let direction = place.transform_vector3(DVec3::NEG_Z).try_normalize()?.as_vec3();
         let name = if light.name.is_empty() { format!("light {index}") } else { light.name.clone() };
         let intensity = Rgb::from(light.color.map(|v| (v * light.intensity).clamp(0.0, f32::MAX)));
-        position.is_finite().then(|| Light { name, intensity, samples: 1, kind: light.kind_at(position, direction) })
+        position.is_finite().then(|| Light {
+            name,
+            intensity,
+            samples: 1,
+            kind: light.kind_at(position, direction),
+        })
     }
 }
 
@@ -157,7 +162,8 @@ mod tests {
         let place = DAffine3::from_scale_rotation_translation(DVec3::splat(3.0), turn, DVec3::X);
         let point = lights.at(0, &place).unwrap();
         assert_eq!((point.intensity, point.name.as_str()), (Rgb::new(40.0, 20.0, 0.0), "light 0"));
-        let Some(Light { kind: LightKind::Spot { position, direction, inner, outer, .. }, .. }) = lights.at(1, &place)
+        let Some(Light { kind: LightKind::Spot { position, direction, inner, outer, .. }, .. }) =
+            lights.at(1, &place)
         else {
             panic!("no spot")
         };

@@ -23,7 +23,13 @@ pub(super) struct Stage {
 
 impl Stage {
     /// The places around `seconds` while the shutter is open for `shutter` seconds.
-    pub(super) fn of(document: &Document, nodes: &Nodes, tracks: &Tracks, seconds: f64, shutter: f64) -> Self {
+    pub(super) fn of(
+        document: &Document,
+        nodes: &Nodes,
+        tracks: &Tracks,
+        seconds: f64,
+        shutter: f64,
+    ) -> Self {
         let at = |share: f64| nodes.places(document, tracks, seconds + (share - 0.5) * shutter);
         let moves = shutter > 0.0 && tracks.last_key().is_some();
         let steps = if moves { 0..=SEGMENTS } else { 1..=0 };
@@ -31,7 +37,12 @@ impl Stage {
     }
 
     /// The poses of a node that holds something in a box, each of them changed by `pose`; one where it stands still.
-    pub(super) fn poses(&self, node: usize, bounds: Aabb, pose: impl Fn(&DAffine3) -> DAffine3) -> Vec<DAffine3> {
+    pub(super) fn poses(
+        &self,
+        node: usize,
+        bounds: Aabb,
+        pose: impl Fn(&DAffine3) -> DAffine3,
+    ) -> Vec<DAffine3> {
         let poses: Vec<_> = self.steps.iter().map(|places| pose(&places[node])).collect();
         match poses.first() {
             Some(first) if poses.iter().any(|pose| pose != first) => thinned(&poses, bounds),
@@ -48,7 +59,8 @@ impl Stage {
 
 /// Every so many-th pose, such that lines between them pass near the others.
 fn thinned(poses: &[DAffine3], bounds: Aabb) -> Vec<DAffine3> {
-    let bounds = if bounds.is_empty() { Aabb { min: glam::Vec3::NEG_ONE, max: glam::Vec3::ONE } } else { bounds };
+    let bounds =
+        if bounds.is_empty() { Aabb { min: glam::Vec3::NEG_ONE, max: glam::Vec3::ONE } } else { bounds };
     let corners = bounds.corners().map(|corner| corner.as_dvec3());
     let off = |pose: &DAffine3, other: &DAffine3| {
         let distance = |p: &DVec3| pose.transform_point3(*p).distance(other.transform_point3(*p));
@@ -74,7 +86,11 @@ fn between(a: &DAffine3, b: &DAffine3, share: f64) -> DAffine3 {
     let mix = |a: DVec3, b: DVec3| a.lerp(b, share);
     let (ma, mb) = (a.matrix3, b.matrix3);
     DAffine3 {
-        matrix3: DMat3::from_cols(mix(ma.x_axis, mb.x_axis), mix(ma.y_axis, mb.y_axis), mix(ma.z_axis, mb.z_axis)),
+        matrix3: DMat3::from_cols(
+            mix(ma.x_axis, mb.x_axis),
+            mix(ma.y_axis, mb.y_axis),
+            mix(ma.z_axis, mb.z_axis),
+        ),
         translation: mix(a.translation, b.translation),
     }
 }

@@ -47,7 +47,9 @@ impl Nodes {
             let mut is_lost = vec![true; count];
             order.iter().for_each(|&node| is_lost[node] = false);
             let lost = is_lost.iter().position(|&lost| lost).unwrap_or(0);
-            return Err(Flaw::new(format!("nodes[{lost}]"), "is its own ancestor").with_help("export the file again"));
+            return Err(
+                Flaw::new(format!("nodes[{lost}]"), "is its own ancestor").with_help("export the file again")
+            );
         }
         let shown = shown(document, &parents)?;
         Ok(Self { parents, order, shown })
@@ -73,9 +75,9 @@ fn parents(document: &Document) -> Result<Vec<Option<usize>>, Flaw> {
     let mut parents = vec![None; count];
     for node in 0..count {
         for child in children(document, node) {
-            let parent = parents.get_mut(child).ok_or_else(|| {
-                Flaw::dangling(format!("nodes[{node}].children"), "nodes", child, count)
-            })?;
+            let parent = parents
+                .get_mut(child)
+                .ok_or_else(|| Flaw::dangling(format!("nodes[{node}].children"), "nodes", child, count))?;
             if parent.replace(node).is_some() {
                 let message = "has two parents";
                 return Err(Flaw::new(format!("nodes[{child}]"), message).with_help("export the file again"));
@@ -129,7 +131,8 @@ fn local(index: usize, node: &Node, tracks: &Tracks, seconds: f64) -> DAffine3 {
         return affine(matrix);
     }
     let turn = rotation.or_else(|| node.rotation.map(|turn| turn.0.to_vec()));
-    let turn = turn.map_or(DQuat::IDENTITY, |v| DQuat::from_xyzw(v[0].into(), v[1].into(), v[2].into(), v[3].into()));
+    let turn = turn
+        .map_or(DQuat::IDENTITY, |v| DQuat::from_xyzw(v[0].into(), v[1].into(), v[2].into(), v[3].into()));
     let turn = turn.normalize();
     DAffine3::from_scale_rotation_translation(
         vector(scale, node.scale, DVec3::ONE),

@@ -102,7 +102,8 @@ impl Assembly<'_> {
         let dangling = || Flaw::dangling(format!("nodes[{node}].mesh"), "meshes", index, root.meshes.len());
         let (json, mesh) = (&root.nodes[node], root.meshes.get(index).ok_or_else(dangling)?);
         let weights = self.model.tracks.at(node, Moved::Weights, self.moment.seconds);
-        let weights = weights.or_else(|| json.weights.clone()).or_else(|| mesh.weights.clone()).unwrap_or_default();
+        let weights =
+            weights.or_else(|| json.weights.clone()).or_else(|| mesh.weights.clone()).unwrap_or_default();
         let skin = json.skin.map(|skin| Bones::of(&self.model.document, skin.value(), &self.stage.places));
         let bones = skin.transpose()?;
         let named = json.name.as_ref().or(mesh.name.as_ref()).filter(|name| !name.is_empty());
@@ -209,7 +210,8 @@ impl Assembly<'_> {
         let name = unique(name, &mut self.taken.objects);
         self.scene.groups.push(Group { name: name.clone(), objects, places });
         let motion = Motion::still(Transform::IDENTITY);
-        let group = Object { name, geometry, materials: Vec::new(), motion, visible: true, casts_shadow: true };
+        let group =
+            Object { name, geometry, materials: Vec::new(), motion, visible: true, casts_shadow: true };
         self.place(node, vec![group]);
     }
 }

@@ -4,9 +4,9 @@ use super::document::Document;
 use super::extensions::extension;
 use super::flaw::Flaw;
 use super::images::{Images, inverted_alpha};
+use glam::Vec2;
 use gltf::json::texture::{self, MagFilter, MinFilter, WrappingMode};
 use gltf::json::validation::Checked;
-use glam::Vec2;
 use heliostat_scene::image::Encoding;
 use heliostat_scene::texture::{Filtering, Pattern, Texture, UvSet, UvTransform, Wrap};
 use heliostat_scene::{Image, TextureId};
@@ -99,7 +99,12 @@ impl<'d> Textures<'d> {
     ///
     /// # Errors
     /// When the texture does not exist or its extensions are damaged. A missing or damaged image is told in `flaws`.
-    pub(super) fn add(&mut self, info: &TextureInfo, encoding: Encoding, inverted: Option<f32>) -> Result<TextureId, Flaw> {
+    pub(super) fn add(
+        &mut self,
+        info: &TextureInfo,
+        encoding: Encoding,
+        inverted: Option<f32>,
+    ) -> Result<TextureId, Flaw> {
         let uv = self.transform(info)?;
         let numbers = [uv.scale.x, uv.scale.y, uv.rotation, uv.offset.x, uv.offset.y].map(f32::to_bits);
         let key = Key {
@@ -147,7 +152,8 @@ impl<'d> Textures<'d> {
             self.tell(Flaw::new(place, message).with_help("export it with two sets of texture coordinates"));
         }
         let set = if set == 1 { UvSet::Second } else { UvSet::First };
-        Ok(transform.map_or(UvTransform { set, ..UvTransform::default() }, |transform| transform.upwards(set)))
+        Ok(transform
+            .map_or(UvTransform { set, ..UvTransform::default() }, |transform| transform.upwards(set)))
     }
 
     fn sampled(&self, texture: usize, image: Arc<Image>) -> Pattern {

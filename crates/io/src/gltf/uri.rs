@@ -42,8 +42,7 @@ pub(super) fn resolve(uri: &str, folder: &Path, place: &str) -> Result<Target, F
 
 /// The bytes of a data URI, `media/type;base64,...`.
 fn data_bytes(data: &str, place: &str) -> Result<Vec<u8>, Flaw> {
-    let damaged =
-        |why: &str| Flaw::new(place, format!("data URI {why}")).with_help("export the file again");
+    let damaged = |why: &str| Flaw::new(place, format!("data URI {why}")).with_help("export the file again");
     let (kind, text) = data.split_once(',').ok_or_else(|| damaged("has no comma"))?;
     if kind.ends_with(";base64") {
         base64(text.as_bytes()).ok_or_else(|| damaged("is not base64"))
@@ -108,7 +107,8 @@ mod tests {
     #[test]
     fn data_uris_hold_their_bytes() {
         // RFC 4648, section 10.
-        for (text, bytes) in [("Zm9vYmFy", "foobar"), ("Zm9vYg==", "foob"), ("Zm9v\nYmE=", "fooba"), ("", "")] {
+        for (text, bytes) in [("Zm9vYmFy", "foobar"), ("Zm9vYg==", "foob"), ("Zm9v\nYmE=", "fooba"), ("", "")]
+        {
             let uri = format!("data:application/octet-stream;base64,{text}");
             assert_eq!(target(&uri), Target::Data(bytes.as_bytes().to_vec()));
         }

@@ -37,7 +37,11 @@ pub(super) fn names(document: &Document) -> Result<Vec<String>, Flaw> {
 }
 
 /// The material of a primitive in a variant, or without one.
-pub(super) fn material(primitive: &Primitive, variant: Option<usize>, place: &str) -> Result<Option<usize>, Flaw> {
+pub(super) fn material(
+    primitive: &Primitive,
+    variant: Option<usize>,
+    place: &str,
+) -> Result<Option<usize>, Flaw> {
     let usual = primitive.material.map(|material| material.value());
     let Some(variant) = variant else { return Ok(usual) };
     let others = primitive.extensions.as_ref().map(|extensions| &extensions.others);

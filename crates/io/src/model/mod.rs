@@ -80,7 +80,13 @@ pub fn complete_gltf(scene: &mut Scene, aspect: f32) -> f32 {
     let camera = fitted(scene, &view, aspect);
     scene.cameras.push(Camera { name: unique(camera.name, &mut taken), ..camera });
     if !scene.lights.is_empty() {
-        return rig::exposure_by_lights(&scene.lights, bounds);
+        let stops = rig::exposure_by_lights(&scene.lights, bounds);
+        // Lights of usual strength were set up in viewers, which add an environment to them; those of another unit, by
+        // whoever lit all of it.
+        if stops == 0.0 && inside.is_none() {
+            rig::surround(scene, 0.5);
+        }
+        return stops;
     }
     if inside.is_some() {
         rig::light(scene, bounds, &view, true);

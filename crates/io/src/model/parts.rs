@@ -51,7 +51,10 @@ fn each_of<'s>(
 
 impl<'s> Part<'s> {
     /// Corners of each triangle in the world, beside its material and twice its area times its normal.
-    pub(super) fn triangles(&self, scene: &'s Scene) -> impl Iterator<Item = (&'s Material, [Vec3; 3], DVec3)> {
+    pub(super) fn triangles(
+        &self,
+        scene: &'s Scene,
+    ) -> impl Iterator<Item = (&'s Material, [Vec3; 3], DVec3)> {
         let (object, place) = (self.object, self.place);
         let is_still = place == DAffine3::IDENTITY;
         let mesh = self.mesh;

@@ -2,6 +2,7 @@
 
 use super::fit::View;
 use super::parts::each_part;
+use crate::obj::unique;
 use glam::{DAffine3, DVec3, Quat, Vec2, Vec3};
 use heliostat_geometry::shape::Rectangle;
 use heliostat_geometry::{Aabb, Shape, Transform};
@@ -45,23 +46,29 @@ pub(super) fn light(scene: &mut Scene, bounds: Aabb, view: &View, is_inside: boo
     }
 }
 
-/// Lights a glTF model that brings no lights of its own: a soft key beside the camera, and around it a studio whose light
-/// comes from above. The studio is what metal and glass show; the ambient light stands for it where it lights nothing.
+/// Lights a glTF model that brings no lights of its own: a soft key and a fill beside the camera, in a studio.
 pub(super) fn studio(scene: &mut Scene, view: &View) {
     let from = |x: f64, y: f64, z: f64| (view.axes() * DVec3::new(x, y, z)).as_vec3();
-    scene.lights = vec![
-        ambient(Rgb::splat(0.2)),
-        distant("key", 0.8, from(-0.7, 0.9, 0.8)),
-        distant("fill", 0.15, from(1.0, 0.1, 0.6)),
-    ];
-    let grey = Rgb::splat;
+    surround(scene, 1.0);
+    scene
+        .lights
+        .extend([distant("key", 0.65, from(-0.7, 0.9, 0.8)), distant("fill", 0.12, from(1.0, 0.1, 0.6))]);
+}
+
+/// Puts a glTF model into a studio whose light comes from above: that is what metal and glass show. The ambient light stands
+/// for it where it lights nothing.
+pub(super) fn surround(scene: &mut Scene, strength: f32) {
+    let grey = |value: f32| Rgb::splat(strength * value);
     scene.background = Background::Gradient { top: grey(1.0), horizon: grey(0.3), bottom: grey(0.12) };
+    let mut taken = scene.lights.iter().map(|light| light.name.clone()).collect();
+    let ambient = ambient(grey(0.15));
+    scene.lights.push(Light { name: unique(ambient.name, &mut taken), ..ambient });
 }
 
 /// Stops for a model by lights of its own in any unit: those that keep the light on its middle between dim and bright.
 pub(super) fn exposure_by_lights(lights: &[Light], bounds: Aabb) -> f32 {
-    /// Irradiance that leaves the picture as it is.
-    const USUAL: std::ops::RangeInclusive<f32> = 0.8..=8.0;
+    /// Irradiance that leaves the picture as it is: from and to.
+    const USUAL: [f32; 2] = [0.8, 4.0];
     let centre = bounds.centre();
     let near = |position: Vec3| position.distance(centre).max(bounds.radius());
     let at_centre = |light: &Light| {
@@ -76,7 +83,7 @@ pub(super) fn exposure_by_lights(lights: &[Light], bounds: Aabb) -> f32 {
         }
     };
     let sum: f32 = lights.iter().map(at_centre).sum();
-    let stops = (sum.clamp(*USUAL.start(), *USUAL.end()) / sum).log2();
+    let stops = (sum.clamp(USUAL[0], USUAL[1]) / sum).log2();
     if stops.is_finite() { stops } else { 0.0 }
 }
 

@@ -74,7 +74,12 @@ impl LoneModel {
     ///
     /// # Errors
     /// When a flag names a camera that is not there, settings contradict each other, or something that is shown is damaged.
-    pub(super) fn build(&self, file: &SceneFile, seconds: f64, shutter: f64) -> Result<(Built, f32), Trouble> {
+    pub(super) fn build(
+        &self,
+        file: &SceneFile,
+        seconds: f64,
+        shutter: f64,
+    ) -> Result<(Built, f32), Trouble> {
         let settings = file.render.settings(0)?;
         let aspect = settings.width as f32 / settings.height as f32;
         let moment = Moment { seconds, shutter, aspect, variant: None };
@@ -138,5 +143,6 @@ fn is_obj(path: &Path) -> bool {
 }
 
 fn is_gltf(path: &Path) -> bool {
-    path.extension().is_some_and(|ending| ["gltf", "glb"].iter().any(|known| ending.eq_ignore_ascii_case(known)))
+    path.extension()
+        .is_some_and(|ending| ["gltf", "glb"].iter().any(|known| ending.eq_ignore_ascii_case(known)))
 }

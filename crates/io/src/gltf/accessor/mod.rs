@@ -37,7 +37,8 @@ impl Document {
         let json = all.get(index).ok_or_else(|| Flaw::dangling(place, "accessors", index, all.len()))?;
         let place = format!("{place} (accessors[{index}])");
         let layout = Layout::of(json, &place)?;
-        let too_many = || Flaw::new(&place, format!("has {} elements", json.count.0)).with_help("export the file again");
+        let too_many =
+            || Flaw::new(&place, format!("has {} elements", json.count.0)).with_help("export the file again");
         let count = usize::try_from(json.count.0).map_err(|_| too_many())?;
         let (mut bytes, mut layout) = match json.buffer_view {
             Some(view) => {
@@ -48,7 +49,11 @@ impl Document {
             None if json.count.0 <= FEW.max(self.held_bytes() as u64) => {
                 (vec![0; count * layout.size()].into(), layout)
             }
-            None => return Err(too_many().with_help("zeros that no buffer view holds are more than the file has bytes")),
+            None => {
+                return Err(
+                    too_many().with_help("zeros that no buffer view holds are more than the file has bytes")
+                );
+            }
         };
         if let Some(sparse) = &json.sparse {
             bytes = self.patched(&bytes, layout, count, sparse, &place)?.into();
@@ -139,7 +144,11 @@ impl Accessor {
     /// The accessor, if it has so many elements.
     pub(super) fn counted(self, count: usize) -> Result<Self, Flaw> {
         let found = self.count;
-        if found == count { Ok(self) } else { Err(self.wrong(&format!("has {found} elements, must have {count}"))) }
+        if found == count {
+            Ok(self)
+        } else {
+            Err(self.wrong(&format!("has {found} elements, must have {count}")))
+        }
     }
 
     /// The accessor, if it has as many elements as the first one that was asked.

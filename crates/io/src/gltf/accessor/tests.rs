@@ -98,6 +98,7 @@ fn elements_that_are_not_there_are_refused_before_they_are_allocated() {
 #[test]
 fn no_elements_are_fine() {
     let json = r#"{"bufferView": 0, "byteOffset": 8, "count": 0, "componentType": 5126, "type": "VEC3"}"#;
-    let accessor = document(&le(&[0.0, 0.0]), r#"{"buffer": 0, "byteLength": 8}"#, json).accessor(0, "").unwrap();
+    let accessor =
+        document(&le(&[0.0, 0.0]), r#"{"buffer": 0, "byteLength": 8}"#, json).accessor(0, "").unwrap();
     assert_eq!(accessor.len(), 0);
 }

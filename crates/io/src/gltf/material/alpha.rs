@@ -26,9 +26,8 @@ impl Reader<'_, '_> {
             return Ok((FloatInput::constant(1.0), None));
         }
         // A texture without holes would make every shadow ray look at it.
-        let texture = texture.filter(|info| {
-            self.textures.image(info, Encoding::Srgb).is_some_and(|image| has_holes(&image))
-        });
+        let texture = texture
+            .filter(|info| self.textures.image(info, Encoding::Srgb).is_some_and(|image| has_holes(&image)));
         let texture = texture.map(|info| self.textures.add(info, Encoding::Srgb, None)).transpose()?;
         let opacity = FloatInput { factor: share(factor), texture, channel: Channel::A };
         let is_mask = self.json.alpha_mode == Checked::Valid(AlphaMode::Mask);

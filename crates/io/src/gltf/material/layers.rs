@@ -1,7 +1,8 @@
 //! What extensions add to a surface.
 
 use super::extensions::{
-    Anisotropy, Clearcoat, DiffuseTransmission, Dispersion, Ior, Iridescence, Sheen, Specular, Transmission, Volume,
+    Anisotropy, Clearcoat, DiffuseTransmission, Dispersion, Ior, Iridescence, Sheen, Specular, Transmission,
+    Volume,
 };
 use super::{MIRROR_IOR, Reader, at_least_zero, finite, share};
 use crate::gltf::flaw::Flaw;
@@ -47,7 +48,8 @@ impl Reader<'_, '_> {
         }
         if let Some(diffuse) = self.extension::<DiffuseTransmission>("KHR_materials_diffuse_transmission")? {
             let texture = diffuse.diffuse_transmission_texture.as_ref();
-            standard.diffuse_transmission = self.float(diffuse.diffuse_transmission_factor, texture, Channel::A)?;
+            standard.diffuse_transmission =
+                self.float(diffuse.diffuse_transmission_factor, texture, Channel::A)?;
             let texture = diffuse.diffuse_transmission_color_texture.as_ref();
             let factor = diffuse.diffuse_transmission_color_factor;
             standard.diffuse_transmission_color = self.color(factor, texture, share)?;
@@ -75,7 +77,8 @@ impl Reader<'_, '_> {
 
     fn sheen(&mut self, standard: &mut Standard) -> Result<(), Flaw> {
         let Some(sheen) = self.extension::<Sheen>("KHR_materials_sheen")? else { return Ok(()) };
-        standard.sheen_color = self.color(sheen.sheen_color_factor, sheen.sheen_color_texture.as_ref(), share)?;
+        standard.sheen_color =
+            self.color(sheen.sheen_color_factor, sheen.sheen_color_texture.as_ref(), share)?;
         let texture = sheen.sheen_roughness_texture.as_ref();
         standard.sheen_roughness = self.float(sheen.sheen_roughness_factor, texture, Channel::A)?;
         Ok(())
@@ -84,7 +87,8 @@ impl Reader<'_, '_> {
     fn film(&mut self, standard: &mut Standard) -> Result<(), Flaw> {
         let Some(film) = self.extension::<Iridescence>("KHR_materials_iridescence")? else { return Ok(()) };
         let weight = self.float(film.iridescence_factor, film.iridescence_texture.as_ref(), Channel::R)?;
-        let ends = [film.iridescence_thickness_minimum, film.iridescence_thickness_maximum].map(at_least_zero);
+        let ends =
+            [film.iridescence_thickness_minimum, film.iridescence_thickness_maximum].map(at_least_zero);
         let texture = film.iridescence_thickness_texture.as_ref();
         let texture = texture.map(|info| self.textures.add(info, Encoding::Linear, None)).transpose()?;
         // Without a texture it is the maximum everywhere, be it below the minimum.

@@ -57,7 +57,8 @@ pub(super) fn read(
             .ok_or_else(|| Flaw::dangling("meshes", "materials", index, materials.len()))?,
     };
     let named = json.name.clone().filter(|name| !name.is_empty());
-    let name = named.unwrap_or_else(|| index.map_or("default".to_owned(), |index| format!("material {index}")));
+    let name =
+        named.unwrap_or_else(|| index.map_or("default".to_owned(), |index| format!("material {index}")));
     let place = index.map_or(String::new(), |index| format!("materials[{index}]"));
     Reader { json, textures, place }.material(name)
 }
@@ -89,8 +90,13 @@ impl Reader<'_, '_> {
         Ok(Material { name, surface, opacity, cutoff, relief })
     }
 
-    fn standard(&mut self, base_color: ColorInput, glossy: Option<&SpecularGlossiness>) -> Result<Standard, Flaw> {
-        let strength = self.extension::<EmissiveStrength>("KHR_materials_emissive_strength")?.unwrap_or_default();
+    fn standard(
+        &mut self,
+        base_color: ColorInput,
+        glossy: Option<&SpecularGlossiness>,
+    ) -> Result<Standard, Flaw> {
+        let strength =
+            self.extension::<EmissiveStrength>("KHR_materials_emissive_strength")?.unwrap_or_default();
         let emissive = self.json.emissive_factor.0.map(|v| v * strength.emissive_strength);
         let texture = self.json.emissive_texture.as_ref().map(of_core);
         let emission = self.color(emissive, texture.as_ref(), at_least_zero)?;
@@ -145,7 +151,12 @@ impl Reader<'_, '_> {
     }
 
     /// A share that a channel of a texture of plain numbers may vary.
-    fn float(&mut self, factor: f32, texture: Option<&TextureInfo>, channel: Channel) -> Result<FloatInput, Flaw> {
+    fn float(
+        &mut self,
+        factor: f32,
+        texture: Option<&TextureInfo>,
+        channel: Channel,
+    ) -> Result<FloatInput, Flaw> {
         let texture = texture.map(|info| self.textures.add(info, Encoding::Linear, None)).transpose()?;
         Ok(FloatInput { factor: share(factor), texture, channel })
     }

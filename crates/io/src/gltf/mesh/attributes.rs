@@ -3,10 +3,10 @@
 use crate::gltf::accessor::Accessor;
 use crate::gltf::document::Document;
 use crate::gltf::flaw::Flaw;
+use glam::{Vec2, Vec3, Vec4};
 use gltf::json::accessor::Type;
 use gltf::json::mesh::{Primitive, Semantic};
 use gltf::json::validation::Checked;
-use glam::{Vec2, Vec3, Vec4};
 use heliostat_geometry::TriMesh;
 
 /// Which vertices of the accessors a mesh has.
@@ -93,8 +93,14 @@ pub(super) struct Attributes {
 
 impl Attributes {
     /// Finds and checks them.
-    pub(super) fn of(document: &Document, primitive: &Primitive, alpha: bool, place: &str) -> Result<Self, Flaw> {
-        let get = |semantic, types: &[Type], count| attribute(document, primitive, semantic, types, count, place);
+    pub(super) fn of(
+        document: &Document,
+        primitive: &Primitive,
+        alpha: bool,
+        place: &str,
+    ) -> Result<Self, Flaw> {
+        let get =
+            |semantic, types: &[Type], count| attribute(document, primitive, semantic, types, count, place);
         let positions = get(Semantic::Positions, &[Type::Vec3], None)?;
         let positions = positions.ok_or_else(|| {
             Flaw::new(format!("{place}.attributes"), "have no POSITION").with_help("export the file again")

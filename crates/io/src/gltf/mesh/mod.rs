@@ -57,6 +57,7 @@ pub(super) fn read(
     for t in &mut mesh.tangents {
         *t = t.truncate().normalize_or_zero().extend(if t.w < 0.0 { -1.0 } else { 1.0 });
     }
-    mesh.validate().map_err(|error| Flaw::new(place, error.to_string()).with_help("export the file again"))?;
+    mesh.validate()
+        .map_err(|error| Flaw::new(place, error.to_string()).with_help("export the file again"))?;
     Ok(mesh)
 }

@@ -3,10 +3,10 @@
 use super::attributes::Picked;
 use crate::gltf::document::Document;
 use crate::gltf::flaw::Flaw;
+use glam::Vec3;
 use gltf::json::Index;
 use gltf::json::accessor::{self, Type};
 use gltf::json::mesh::Primitive;
-use glam::Vec3;
 use heliostat_geometry::TriMesh;
 
 /// Adds the targets of a primitive to a mesh of its vertices.

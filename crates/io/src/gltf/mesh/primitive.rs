@@ -85,7 +85,12 @@ pub(super) fn triangles(
 }
 
 /// The vertices of the corners in their order.
-fn corners(document: &Document, primitive: &Primitive, vertices: usize, place: &str) -> Result<Vec<u32>, Flaw> {
+fn corners(
+    document: &Document,
+    primitive: &Primitive,
+    vertices: usize,
+    place: &str,
+) -> Result<Vec<u32>, Flaw> {
     let Some(index) = primitive.indices else {
         let count = u32::try_from(vertices).map_err(|_| Flaw::new(place, "has too many vertices"))?;
         return Ok((0..count).collect());

@@ -3,9 +3,9 @@
 use super::attributes::{Picked, attribute};
 use crate::gltf::document::Document;
 use crate::gltf::flaw::Flaw;
+use glam::{DAffine3, DMat3, DMat4, DVec3, Vec3};
 use gltf::json::accessor::Type;
 use gltf::json::mesh::{Primitive, Semantic};
-use glam::{DAffine3, DMat3, DMat4, DVec3, Vec3};
 use heliostat_geometry::TriMesh;
 
 /// The places of the bones of a skin: each a map from where the vertices were bound to where they are in the world.
@@ -26,7 +26,8 @@ impl Bones {
         let bound = match skin.inverse_bind_matrices {
             None => None,
             Some(matrices) => {
-                let accessor = document.accessor(matrices.value(), &format!("{place}.inverseBindMatrices"))?;
+                let accessor =
+                    document.accessor(matrices.value(), &format!("{place}.inverseBindMatrices"))?;
                 Some(accessor.of(&[Type::Mat4])?.at_least(skin.joints.len())?)
             }
         };
@@ -58,7 +59,10 @@ pub(super) fn bend(
     let mut sums = vec![(DAffine3::ZERO, 0.0_f64); mesh.positions.len()];
     for set in 0.. {
         let get = |semantic| attribute(document, primitive, semantic, &[Type::Vec4], None, place);
-        let (Some(joints), Some(weights)) = (get(Semantic::Joints(set))?, get(Semantic::Weights(set))?) else { break };
+        let (Some(joints), Some(weights)) = (get(Semantic::Joints(set))?, get(Semantic::Weights(set))?)
+        else {
+            break;
+        };
         let (joints, weights) = (joints.at_least(picked.end())?, weights.at_least(picked.end())?);
         let mut followed = picked.map(|i| (joints.integers::<4>(i), weights.floats::<4>(i))).into_iter();
         for (sum, total) in &mut sums {
@@ -99,10 +103,7 @@ impl Bones {
 
 /// `a + weight * b`, number by number.
 fn added(a: &DAffine3, b: &DAffine3, weight: f64) -> DAffine3 {
-    DAffine3 {
-        matrix3: a.matrix3 + b.matrix3 * weight,
-        translation: a.translation + b.translation * weight,
-    }
+    DAffine3 { matrix3: a.matrix3 + b.matrix3 * weight, translation: a.translation + b.translation * weight }
 }
 
 fn unit(v: DVec3) -> Vec3 {

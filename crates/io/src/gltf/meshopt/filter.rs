@@ -11,7 +11,9 @@ pub(super) fn octahedral(bytes: &mut [u8], stride: usize) -> bool {
         8 => bytes.chunks_exact_mut(8).for_each(|row| {
             let [x, y, one, _] = words(row).map(f32::from);
             let unit = unfolded([x, y, one], f32::from(i16::MAX));
-            row.chunks_exact_mut(2).zip(unit).for_each(|(word, v)| word.copy_from_slice(&(v as i16).to_le_bytes()));
+            row.chunks_exact_mut(2)
+                .zip(unit)
+                .for_each(|(word, v)| word.copy_from_slice(&(v as i16).to_le_bytes()));
         }),
         _ => return false,
     }
@@ -100,7 +102,9 @@ mod tests {
 
     #[test]
     fn strides_that_do_not_fit_are_refused() {
-        assert!(!octahedral(&mut [0; 12], 12) && !quaternion(&mut [0; 12], 12) && !exponential(&mut [0; 6], 6));
+        assert!(
+            !octahedral(&mut [0; 12], 12) && !quaternion(&mut [0; 12], 12) && !exponential(&mut [0; 6], 6)
+        );
     }
 
     fn bytes(words: &[i16]) -> Vec<u8> {

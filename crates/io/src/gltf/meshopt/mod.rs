@@ -97,6 +97,10 @@ impl Document {
             Filter::Quaternion => filter::quaternion(&mut unpacked, stride),
             Filter::Exponential => filter::exponential(&mut unpacked, stride),
         };
-        if is_done { Ok(unpacked.into()) } else { Err(damaged("have a filter that does not fit their stride")) }
+        if is_done {
+            Ok(unpacked.into())
+        } else {
+            Err(damaged("have a filter that does not fit their stride"))
+        }
     }
 }
