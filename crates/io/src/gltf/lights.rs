@@ -70,6 +70,11 @@ fn white() -> [f32; 3] {
     [1.0; 3]
 }
 
+/// A number of JSON may be too large for 32 bits.
+fn finite(v: f32) -> f32 {
+    v.clamp(f32::MIN, f32::MAX)
+}
+
 fn one() -> f32 {
     1.0
 }
@@ -119,7 +124,8 @@ impl Lights {
         let position = place.translation.as_vec3();
         let direction = place.transform_vector3(DVec3::NEG_Z).try_normalize()?.as_vec3();
         let name = if light.name.is_empty() { format!("light {index}") } else { light.name.clone() };
-        let intensity = Rgb::from(light.color.map(|v| (v * light.intensity).clamp(0.0, f32::MAX)));
+        let intensity =
+            Rgb::from(light.color.map(|v| (finite(v) * finite(light.intensity)).clamp(0.0, f32::MAX)));
         position.is_finite().then(|| Light {
             name,
             intensity,

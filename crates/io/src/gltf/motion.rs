@@ -2,6 +2,7 @@
 
 use super::animation::Tracks;
 use super::document::Document;
+use super::flaw::Flaw;
 use super::nodes::Nodes;
 use glam::{DAffine3, DMat3, DVec3};
 use heliostat_geometry::{Aabb, Transform};
@@ -23,17 +24,30 @@ pub(super) struct Stage {
 
 impl Stage {
     /// The places around `seconds` while the shutter is open for `shutter` seconds.
+    ///
+    /// # Errors
+    /// When a node stands beyond all numbers.
     pub(super) fn of(
         document: &Document,
         nodes: &Nodes,
         tracks: &Tracks,
         seconds: f64,
         shutter: f64,
-    ) -> Self {
-        let at = |share: f64| nodes.places(document, tracks, seconds + (share - 0.5) * shutter);
+    ) -> Result<Self, Flaw> {
+        let at = |share: f64| {
+            let places = nodes.places(document, tracks, seconds + (share - 0.5) * shutter);
+            match places.iter().position(|place| !place.is_finite()) {
+                None => Ok(places),
+                Some(node) => {
+                    let flaw = Flaw::new(format!("nodes[{node}]"), "stands at no finite place");
+                    Err(flaw.with_help("export the file again"))
+                }
+            }
+        };
         let moves = shutter > 0.0 && tracks.last_key().is_some();
-        let steps = if moves { 0..=SEGMENTS } else { 1..=0 };
-        Self { places: at(0.5), steps: steps.map(|i| at(i as f64 / SEGMENTS as f64)).collect() }
+        let steps = if moves { 0..SEGMENTS + 1 } else { 0..0 };
+        let steps = steps.map(|i| at(i as f64 / SEGMENTS as f64)).collect::<Result<_, _>>()?;
+        Ok(Self { places: at(0.5)?, steps })
     }
 
     /// The poses of a node that holds something in a box, each of them changed by `pose`; one where it stands still.

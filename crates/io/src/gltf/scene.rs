@@ -46,7 +46,7 @@ struct Taken {
 /// When something that is shown is damaged.
 pub(super) fn read(model: &GltfModel, moment: &Moment) -> Result<(Scene, Vec<Flaw>), Flaw> {
     let GltfModel { document, nodes, tracks, images, .. } = model;
-    let stage = Stage::of(document, nodes, tracks, moment.seconds, moment.shutter);
+    let stage = Stage::of(document, nodes, tracks, moment.seconds, moment.shutter)?;
     let mut assembly = Assembly {
         model,
         moment,

@@ -152,8 +152,12 @@ impl<'d> Textures<'d> {
             self.tell(Flaw::new(place, message).with_help("export it with two sets of texture coordinates"));
         }
         let set = if set == 1 { UvSet::Second } else { UvSet::First };
-        Ok(transform
-            .map_or(UvTransform { set, ..UvTransform::default() }, |transform| transform.upwards(set)))
+        let uv = transform.map_or(UvTransform { set, ..UvTransform::default() }, |t| t.upwards(set));
+        if uv.offset.is_finite() && uv.scale.is_finite() && uv.rotation.is_finite() {
+            return Ok(uv);
+        }
+        let place = format!("textures[{}]", info.index);
+        Err(Flaw::new(place, "is transformed beyond all numbers").with_help("export the file again"))
     }
 
     fn sampled(&self, texture: usize, image: Arc<Image>) -> Pattern {

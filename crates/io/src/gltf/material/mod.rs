@@ -97,7 +97,7 @@ impl Reader<'_, '_> {
     ) -> Result<Standard, Flaw> {
         let strength =
             self.extension::<EmissiveStrength>("KHR_materials_emissive_strength")?.unwrap_or_default();
-        let emissive = self.json.emissive_factor.0.map(|v| v * strength.emissive_strength);
+        let emissive = self.json.emissive_factor.0.map(|v| finite(v) * finite(strength.emissive_strength));
         let texture = self.json.emissive_texture.as_ref().map(of_core);
         let emission = self.color(emissive, texture.as_ref(), at_least_zero)?;
         let pbr = &self.json.pbr_metallic_roughness;
