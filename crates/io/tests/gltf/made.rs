@@ -80,8 +80,7 @@ pub(crate) fn everything() -> Vec<u8> {
             {"bufferView": 6, "count": 4, "componentType": 5121, "type": "VEC4", "normalized": true},
             {"count": 4, "componentType": 5126, "type": "VEC3", "sparse": {"count": 2,
                 "indices": {"bufferView": 6, "byteOffset": 0, "componentType": 5121}, "values": {"bufferView": 7}}}]"#;
-    // The indices of the sparse accessor are the first bytes of the colours: 0 and 255 would be too far.
-    let mut binary = binary;
+    // The indices of the sparse accessor are the first bytes of the colours: 0, and 3 instead of one too far.
     binary[177] = 3;
     model(&format!(r#""bufferViews": [{views}], {json}"#), &binary)
 }
