@@ -1,4 +1,4 @@
-//! Files in and out: scene files, OBJ with MTL, textures, PNG and OpenEXR.
+//! Files in and out: scene files, glTF, OBJ with MTL, textures, PNG and OpenEXR.
 
 pub mod animation;
 pub mod atomic;
@@ -7,6 +7,7 @@ mod document;
 pub mod error;
 pub mod exr_file;
 pub mod file;
+pub mod gltf;
 pub mod image_file;
 pub mod model;
 pub mod nearest;

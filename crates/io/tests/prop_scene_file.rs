@@ -154,7 +154,7 @@ proptest! {
         let paths = ["object.ball.translate.1", "camera.main.focus", "render", "material.glass.phong.ior", "animation.0.keys", "camera.0.up.0"];
         for path in [path.as_str(), paths[known]] {
             let overrides = vec![(path.to_owned(), value.clone())];
-            let options = OpenOptions { overrides, camera: None };
+            let options = OpenOptions { overrides, ..OpenOptions::default() };
             let _ = open(&file, &options).and_then(|source| source.shot(2));
         }
     }

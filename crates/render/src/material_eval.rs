@@ -83,12 +83,12 @@ impl MaterialEval<'_> {
 
     /// Coverage in `[0, 1]`.
     pub(crate) fn opacity(&self, material: &Material) -> f32 {
-        let coverage = |id: TextureId| match material.opacity.channel {
+        let FloatInput { factor, texture, channel: of } = material.opacity;
+        let coverage = |id: TextureId| match of {
             Channel::Luminance => texture_eval::coverage(&self.textures[id.index()], &self.at),
-            one => channel(self.texture(id), one),
+            _ => channel(self.texture(id), of),
         };
-        let coverage = material.opacity.texture.map_or(1.0, coverage);
-        let opacity = (material.opacity.factor * coverage).clamp(0.0, 1.0);
+        let opacity = (factor * texture.map_or(1.0, coverage) * self.at.coverage).clamp(0.0, 1.0);
         match material.cutoff {
             None => opacity,
             Some(cutoff) => f32::from(u8::from(opacity >= cutoff)),
@@ -115,7 +115,7 @@ impl MaterialEval<'_> {
     fn bump(&self, texture: TextureId, strength: f32, hit: &Hit, ns: Vec3) -> Option<Vec3> {
         let step = uv_step(&self.textures[texture.index()])?;
         let height = |du: f32, dv: f32| {
-            let at = TexturePoint { uv: self.at.uv + Vec2::new(du, dv), ..self.at };
+            let at = self.at.moved(Vec2::new(du, dv));
             luminance(texture_eval::eval(&self.textures[texture.index()], &at).truncate())
         };
         // Central differences over a texel to both sides.

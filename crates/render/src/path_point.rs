@@ -7,7 +7,6 @@ use crate::integrator::FirstHit;
 use crate::light::{Lookout, Target};
 use crate::material_eval::MaterialEval;
 use crate::normals::Normals;
-use crate::texture_eval::TexturePoint;
 use crate::world::{Inside, PassingRay, SurfaceHit, World};
 use glam::{Vec2, Vec3};
 use heliostat_geometry::{OrthonormalFrame, Ray};
@@ -67,15 +66,15 @@ impl<'a> Covering<'a> {
     #[inline]
     pub(crate) fn new(world: &World<'a>, surface: &SurfaceHit, material: MaterialId) -> Self {
         let scene = world.scene();
-        let at = TexturePoint { uv: surface.hit.uv, local: surface.local };
-        let eval = MaterialEval { textures: &scene.textures, at };
+        let eval = MaterialEval { textures: &scene.textures, at: surface.texture_point() };
         Self { id: material, material: &scene.materials[material.index()], eval }
     }
 
     /// Coverage in `[0, 1]`.
     #[inline]
     pub(crate) fn opacity(&self) -> f32 {
-        if self.material.has_holes() { self.eval.opacity(self.material) } else { 1.0 }
+        let is_whole = !self.material.has_holes() && self.eval.at.coverage == 1.0;
+        if is_whole { 1.0 } else { self.eval.opacity(self.material) }
     }
 
     /// Radiance that the surface gives off and that lights the scene.

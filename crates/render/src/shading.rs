@@ -5,7 +5,6 @@ use crate::integrator::FirstHit;
 use crate::light::direct::LitPoint;
 use crate::material_eval::{MaterialEval, PhongPoint};
 use crate::phong::{fresnel, reflect, refract};
-use crate::texture_eval::TexturePoint;
 use crate::world::{SurfaceHit, World};
 use glam::Vec3;
 use heliostat_scene::material::FresnelMode;
@@ -54,7 +53,7 @@ impl<'a> ShadingPoint<'a> {
     ) -> Self {
         let scene = world.scene();
         let material = &scene.materials[material.index()];
-        let at = TexturePoint { uv: surface.hit.uv, local: surface.local };
+        let at = surface.texture_point();
         let eval = MaterialEval { textures: &scene.textures, at };
 
         // Turn both normals to the viewer by the one that knows the sides.

@@ -6,7 +6,7 @@
 use glam::{Vec2, Vec3, Vec4};
 use heliostat_scene::Image;
 use heliostat_scene::color::luminance;
-use heliostat_scene::texture::{CheckerSpace, Filtering, Pattern, Texture, UvTransform, Wrap};
+use heliostat_scene::texture::{CheckerSpace, Filtering, Pattern, Texture, UvSet, UvTransform, Wrap};
 
 /// What a missing image looks like.
 const MAGENTA: Vec4 = Vec4::new(1.0, 0.0, 1.0, 1.0);
@@ -16,15 +16,39 @@ const MAGENTA: Vec4 = Vec4::new(1.0, 0.0, 1.0, 1.0);
 pub(crate) struct TexturePoint {
     /// Surface parameters.
     pub(crate) uv: Vec2,
+    /// The second set of them; the first one where there is only that.
+    pub(crate) uv1: Vec2,
     /// Position in the local space of the object.
     pub(crate) local: Vec3,
+    /// Coverage of the surface itself, in `[0, 1]`.
+    pub(crate) coverage: f32,
+}
+
+impl TexturePoint {
+    /// A point of a surface that covers all and has one set of parameters.
+    pub(crate) fn plain(uv: Vec2, local: Vec3) -> Self {
+        Self { uv, uv1: uv, local, coverage: 1.0 }
+    }
+
+    /// The parameters that a texture looks at, transformed as it wants them.
+    fn parameters(&self, transform: &UvTransform) -> Vec2 {
+        transform.apply(match transform.set {
+            UvSet::First => self.uv,
+            UvSet::Second => self.uv1,
+        })
+    }
+
+    /// The point a step further in both sets.
+    pub(crate) fn moved(&self, by: Vec2) -> Self {
+        Self { uv: self.uv + by, uv1: self.uv1 + by, ..*self }
+    }
 }
 
 /// The linear RGBA value of a texture.
 pub(crate) fn eval(texture: &Texture, at: &TexturePoint) -> Vec4 {
     match &texture.pattern {
         Pattern::Image { image, wrap_u, wrap_v, filtering } => {
-            image_at(image, [*wrap_u, *wrap_v], *filtering, texture.uv.apply(at.uv))
+            image_at(image, [*wrap_u, *wrap_v], *filtering, at.parameters(&texture.uv))
         }
         Pattern::Checker { even, odd, space } => {
             let color = if is_even(*space, &texture.uv, at) { even } else { odd };
@@ -63,7 +87,7 @@ pub(crate) fn uv_step(texture: &Texture) -> Option<Vec2> {
 /// Whether the square or cube around the point has the colour of the one at the origin.
 fn is_even(space: CheckerSpace, transform: &UvTransform, at: &TexturePoint) -> bool {
     let cell = match space {
-        CheckerSpace::Uv => transform.apply(at.uv).floor().extend(0.0),
+        CheckerSpace::Uv => at.parameters(transform).floor().extend(0.0),
         CheckerSpace::Local => {
             let scale = Vec3::new(transform.scale.x, transform.scale.x, transform.scale.y);
             (at.local * scale).map(snapped_floor)

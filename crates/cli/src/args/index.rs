@@ -19,7 +19,7 @@ Examples:
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub(crate) struct IndexArgs {
-    /// A scene (.toml) or a model (.obj)
+    /// A scene (.toml) or a model (.obj, .gltf, .glb)
     pub(crate) scene: PathBuf,
 
     /// How trees are built; without it, `midpoint` and `balanced` are shown

@@ -31,8 +31,8 @@ const STYLES: Styles = Styles::styled()
 const ABOUT: &str = "\
 Heliostat renders scenes and models by ray tracing, into PNG for looking at and multi-layer HDR EXR for compositing.
 
-A scene is a .toml file (its keys: `heliostat schema`) or an .obj model, which renders with a fitted camera and a
-neutral light. The same scene, settings and version give the same bytes, for any number of threads.";
+A scene is a .toml file (its keys: `heliostat schema`) or a model (.obj, .gltf, .glb), which renders with a fitted camera
+and a neutral light where it has none. The same scene, settings and version give the same bytes, for any number of threads.";
 
 const AFTER_HELP: &str = "\
 Examples:

@@ -24,7 +24,7 @@ NAME.0007.partial.exr so that nobody takes it for whole; a second Ctrl-C ends at
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub(crate) struct RenderArgs {
-    /// A scene (.toml) or a model (.obj)
+    /// A scene (.toml) or a model (.obj, .gltf, .glb)
     pub(crate) scene: PathBuf,
 
     #[command(flatten)]
@@ -90,6 +90,10 @@ pub(crate) struct PictureArgs {
     /// Camera by name [default: the scene's]
     #[arg(long, value_name = "NAME")]
     pub(crate) camera: Option<String>,
+
+    /// Render this variant of a glTF model's materials (`heliostat info` lists them)
+    #[arg(long, value_name = "NAME")]
+    pub(crate) variant: Option<String>,
 
     /// Frames: `1-48`, every second with `1-48x2`, lists as `1,5,10-20`, or `all` of the scene's
     /// [default: the scene's first frame]

@@ -1,4 +1,4 @@
-//! PNG, JPEG and Radiance HDR through the `image` crate.
+//! PNG, JPEG, WebP and Radiance HDR through the `image` crate.
 //!
 //! `EXPOSURE` and `COLORCORR` lines of HDR files are not applied: most programs that write them do not mean them.
 
@@ -8,12 +8,13 @@ use heliostat_scene::image::{Encoding, Image, Samples};
 use image::codecs::hdr::HdrDecoder;
 use image::codecs::jpeg::JpegDecoder;
 use image::codecs::png::PngDecoder;
+use image::codecs::webp::WebPDecoder;
 use image::error::ImageError;
 use image::{DynamicImage, ImageDecoder, ImageResult};
 use std::io::Cursor;
 use std::path::Path;
 
-/// Decodes the bytes of a file in one of the three formats.
+/// Decodes the bytes of a file in one of the four formats.
 pub(super) fn decode(path: &Path, bytes: &[u8], format: Format, limits: &Limits) -> Result<Image, LoadError> {
     shield(|| match format {
         Format::Png => {
@@ -24,6 +25,7 @@ pub(super) fn decode(path: &Path, bytes: &[u8], format: Format, limits: &Limits)
             check_jpeg_end(bytes)?;
             load(JpegDecoder::new(Cursor::new(bytes)), limits)
         }
+        Format::WebP => load(WebPDecoder::new(Cursor::new(bytes)), limits),
         // The official signature is `#?RADIANCE`; many programs write `#?RGBE`, which the strict mode refuses.
         Format::Hdr if bytes.starts_with(b"#?RADIANCE") => load(HdrDecoder::new(Cursor::new(bytes)), limits),
         Format::Hdr => load(HdrDecoder::new_nonstrict(Cursor::new(bytes)), limits),

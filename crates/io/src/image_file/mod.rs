@@ -1,4 +1,4 @@
-//! Images from files: PNG, JPEG, Radiance HDR and OpenEXR, told apart by their content.
+//! Images from files: PNG, JPEG, WebP, Radiance HDR and OpenEXR, told apart by their content.
 //!
 //! Pixels keep their bit depth. Sizes are checked against [`Limits`] before anything is allocated for them. What is
 //! *not* done: colour profiles and the orientation note of cameras are ignored, as renderers do; 8 and 16 bit images
@@ -62,6 +62,7 @@ impl Limits {
 enum Format {
     Png,
     Jpeg,
+    WebP,
     Hdr,
     Exr,
 }
@@ -74,6 +75,10 @@ impl Format {
             (b"#?", Self::Hdr),
             (&exr_file::MAGIC, Self::Exr),
         ];
+        // The length of the file stands between the two words.
+        if bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP") {
+            return Some(Self::WebP);
+        }
         starts.into_iter().find(|(start, _)| bytes.starts_with(start)).map(|(_, format)| format)
     }
 }
@@ -91,9 +96,6 @@ fn foreign_format(bytes: &[u8]) -> Option<&'static str> {
         (b"<", "a text in XML or HTML"),
         (b"version https://git-lfs", "a Git LFS pointer, not the file itself"),
     ];
-    if bytes.get(8..12) == Some(b"WEBP") {
-        return Some("a WebP image");
-    }
     starts.into_iter().find(|(start, _)| bytes.starts_with(start)).map(|(_, name)| name)
 }
 
@@ -103,7 +105,7 @@ fn unknown_format(path: &Path, bytes: &[u8]) -> LoadError {
         Some(name) => format!("is {name}"),
         None => "is no image in a known format".to_owned(),
     };
-    LoadError::new(path, message).with_help("save it as PNG, JPEG, HDR or EXR")
+    LoadError::new(path, message).with_help("save it as PNG, JPEG, WebP, HDR or EXR")
 }
 
 /// Reads an image as a texture or environment: straight alpha, in the bit depth of the file.

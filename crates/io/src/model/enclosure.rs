@@ -1,6 +1,6 @@
 //! Boxes that are open to one side and meant to be looked into, as the Cornell box is.
 
-use super::shaded_areas;
+use super::parts::each_part;
 use glam::{DVec3, Vec3};
 use heliostat_geometry::Aabb;
 use heliostat_scene::{Material, Scene};
@@ -36,7 +36,7 @@ fn covered_shares(scene: &Scene, bounds: Aabb) -> [[f64; 2]; 3] {
     if size.min_element() <= 0.0 {
         return covered;
     }
-    for (_, corners, area) in shaded_areas(scene).filter(|(material, ..)| is_opaque(material)) {
+    let mut cover = |corners: [Vec3; 3], area: DVec3| {
         let inward = |end: Vec3, axis: usize, p: Vec3| (p[axis] - end[axis]).abs() / size[axis];
         for axis in 0..3 {
             for (end, corner) in [bounds.min, bounds.max].into_iter().enumerate() {
@@ -45,7 +45,12 @@ fn covered_shares(scene: &Scene, bounds: Aabb) -> [[f64; 2]; 3] {
                 }
             }
         }
-    }
+    };
+    each_part(scene, &mut |part| {
+        // Nobody builds walls of a thousand copies.
+        let walls = part.triangles(scene).filter(|(material, ..)| !part.is_copy && is_opaque(material));
+        walls.for_each(|(_, corners, area)| cover(corners, area));
+    });
     covered
 }
 

@@ -5,6 +5,7 @@
 
 mod enclosure;
 mod fit;
+mod parts;
 mod rig;
 mod stance;
 
@@ -14,11 +15,11 @@ use crate::texture_cache::TextureCache;
 use enclosure::open_side;
 use fit::{View, fit};
 use glam::{DVec3, Vec3};
-use heliostat_geometry::{Aabb, TriMesh};
+use heliostat_geometry::TriMesh;
 use heliostat_scene::camera::Projection;
-use heliostat_scene::object::Geometry;
-use heliostat_scene::{Camera, Material, Motion, Scene};
-use stance::stance;
+use heliostat_scene::{Camera, Motion, Scene};
+use parts::{bounds_of, each_part};
+use stance::{Stance, stance};
 use std::path::Path;
 
 /// The name of the camera that sees all of a lone model.
@@ -58,19 +59,57 @@ pub fn scene_from_obj(
 pub fn scene_of(model: &ObjModel, name: &str, aspect: f32) -> Scene {
     let mut scene = Scene::default();
     named(model, name).append_to(&mut scene, &Placement::identity());
-    let meshes = scene.meshes.clone();
     let bounds = bounds_of(&scene);
     let inside = open_side(&scene, bounds);
-    let view = inside.map_or_else(|| View::onto(&stance(&meshes, bounds)), View::into);
-    let points = meshes.iter().flat_map(|mesh| &mesh.positions).map(|p| p.as_dvec3());
-    scene.cameras.push(Camera {
-        name: FITTED_CAMERA.to_owned(),
-        motion: Motion::still(fit(points, &view, f64::from(aspect))),
-        projection: Projection::Perspective { fov_y: view.fov_y as f32 },
-        focus: None,
-    });
+    let view = inside.map_or_else(|| View::onto(&stance(&scene.meshes, bounds)), View::into);
+    let camera = fitted(&scene, &view, aspect);
+    scene.cameras.push(camera);
     rig::light(&mut scene, bounds, &view, inside.is_some());
     scene
+}
+
+/// A scene of a glTF file with a camera that sees all of it, behind its own ones, and with lights where it has none; and the
+/// stops that bring it to a middling brightness.
+///
+/// glTF says which way is up and which way is front, so nothing is guessed.
+pub fn complete_gltf(scene: &mut Scene, aspect: f32) -> f32 {
+    let bounds = bounds_of(scene);
+    let inside = open_side(scene, bounds);
+    let view = inside.map_or_else(|| View::onto(&Stance::of_gltf(bounds)), View::into);
+    let mut taken = scene.cameras.iter().map(|camera| camera.name.clone()).collect();
+    let camera = fitted(scene, &view, aspect);
+    scene.cameras.push(Camera { name: unique(camera.name, &mut taken), ..camera });
+    if !scene.lights.is_empty() {
+        let stops = rig::exposure_by_lights(&scene.lights, bounds);
+        // Lights of usual strength were set up in viewers, which add an environment to them; those of another unit, by
+        // whoever lit all of it.
+        if stops == 0.0 && inside.is_none() {
+            rig::surround(scene, 0.5);
+        }
+        return stops;
+    }
+    if inside.is_some() {
+        rig::light(scene, bounds, &view, true);
+        return rig::exposure(scene, bounds);
+    }
+    rig::studio(scene, &view);
+    0.0
+}
+
+/// The camera from which all of a scene is seen.
+fn fitted(scene: &Scene, view: &View, aspect: f32) -> Camera {
+    let mut points = Vec::new();
+    each_part(scene, &mut |part| part.points(&mut |p| points.push(p)));
+    if points.is_empty() {
+        // Nothing to see: look at where it would be.
+        points = vec![DVec3::NEG_ONE, DVec3::ONE];
+    }
+    Camera {
+        name: FITTED_CAMERA.to_owned(),
+        motion: Motion::still(fit(points.into_iter(), view, f64::from(aspect))),
+        projection: Projection::Perspective { fov_y: view.fov_y as f32 },
+        focus: None,
+    }
 }
 
 /// Stops that bring a scene of [`scene_of`] to a middling brightness: 0 where the light was chosen here, else by the strength
@@ -82,10 +121,6 @@ pub fn exposure_of(scene: &Scene) -> f32 {
 /// Whether any material refracts: then light passes through it to what lies behind.
 pub fn has_glass(scene: &Scene) -> bool {
     scene.materials.iter().any(|material| material.surface.refracts())
-}
-
-fn bounds_of(scene: &Scene) -> Aabb {
-    scene.meshes.iter().fold(Aabb::EMPTY, |all, mesh| all.union(mesh.bounds()))
 }
 
 /// The model with `name` for the object that has none.
@@ -104,22 +139,6 @@ fn doubled_areas(mesh: &TriMesh) -> impl Iterator<Item = ([Vec3; 3], DVec3)> {
         let corners = mesh.corners(i);
         let [a, b, c] = corners.map(|p| p.as_dvec3());
         (corners, (b - a).cross(c - a))
-    })
-}
-
-/// As [`doubled_areas`] for all objects of the scene, which stand where they were made, beside their materials.
-fn shaded_areas(scene: &Scene) -> impl Iterator<Item = (&Material, [Vec3; 3], DVec3)> {
-    scene.objects.iter().flat_map(move |object| {
-        let mesh = match object.geometry {
-            Geometry::Mesh(id) => scene.meshes.get(id.index()),
-            Geometry::Shape(_) | Geometry::Group(_) => None,
-        };
-        mesh.into_iter().flat_map(move |mesh| {
-            (0..).zip(doubled_areas(mesh)).map(move |(i, (corners, area))| {
-                let material = object.material(mesh.slot(i));
-                (&scene.materials[material.index()], corners, area)
-            })
-        })
     })
 }
 

@@ -1,7 +1,8 @@
 //! Light for a model that brings none, and a little help for one that does.
 
 use super::fit::View;
-use super::shaded_areas;
+use super::parts::each_part;
+use crate::obj::unique;
 use glam::{DAffine3, DVec3, Quat, Vec2, Vec3};
 use heliostat_geometry::shape::Rectangle;
 use heliostat_geometry::{Aabb, Shape, Transform};
@@ -9,7 +10,7 @@ use heliostat_scene::color::luminance;
 use heliostat_scene::light::{Falloff, LightKind};
 use heliostat_scene::object::Geometry;
 use heliostat_scene::scene::Background;
-use heliostat_scene::{Light, Rgb, Scene};
+use heliostat_scene::{Light, MaterialId, Rgb, Scene};
 use std::f32::consts::PI;
 
 /// The model lights itself when its emitters give its box this irradiance on the mean.
@@ -45,15 +46,61 @@ pub(super) fn light(scene: &mut Scene, bounds: Aabb, view: &View, is_inside: boo
     }
 }
 
+/// Lights a glTF model that brings no lights of its own: a soft key and a fill beside the camera, in a studio.
+pub(super) fn studio(scene: &mut Scene, view: &View) {
+    let from = |x: f64, y: f64, z: f64| (view.axes() * DVec3::new(x, y, z)).as_vec3();
+    surround(scene, 1.0);
+    scene
+        .lights
+        .extend([distant("key", 0.65, from(-0.7, 0.9, 0.8)), distant("fill", 0.12, from(1.0, 0.1, 0.6))]);
+}
+
+/// Puts a glTF model into a studio whose light comes from above: that is what metal and glass show. The ambient light stands
+/// for it where it lights nothing.
+pub(super) fn surround(scene: &mut Scene, strength: f32) {
+    let grey = |value: f32| Rgb::splat(strength * value);
+    scene.background = Background::Gradient { top: grey(1.0), horizon: grey(0.3), bottom: grey(0.12) };
+    let mut taken = scene.lights.iter().map(|light| light.name.clone()).collect();
+    let ambient = ambient(grey(0.15));
+    scene.lights.push(Light { name: unique(ambient.name, &mut taken), ..ambient });
+}
+
+/// Stops for a model by lights of its own in any unit: those that keep the light on its middle between dim and bright.
+pub(super) fn exposure_by_lights(lights: &[Light], bounds: Aabb) -> f32 {
+    /// Irradiance that leaves the picture as it is: from and to.
+    const USUAL: [f32; 2] = [0.8, 4.0];
+    let centre = bounds.centre();
+    let near = |position: Vec3| position.distance(centre).max(bounds.radius());
+    let at_centre = |light: &Light| {
+        let strength = luminance(light.intensity);
+        match light.kind {
+            LightKind::Point { position, .. } => strength / near(position).powi(2),
+            LightKind::Spot { position, direction, outer, .. } => {
+                let is_lit = (centre - position).angle_between(direction) < outer + outer;
+                if is_lit { strength / near(position).powi(2) } else { 0.0 }
+            }
+            LightKind::Ambient | LightKind::Directional { .. } | LightKind::Area { .. } => strength,
+        }
+    };
+    let sum: f32 = lights.iter().map(at_centre).sum();
+    let stops = (sum.clamp(USUAL[0], USUAL[1]) / sum).log2();
+    if stops.is_finite() { stops } else { 0.0 }
+}
+
 /// Irradiance that the emitters of the model would give the inside of its box if they lit it evenly.
 fn own_irradiance(scene: &Scene, bounds: Aabb) -> Rgb {
     let mut flux = Rgb::ZERO;
-    for (material, _, doubled_area) in shaded_areas(scene) {
-        let emission = material.surface.emission();
-        if !emission.is_zero() {
-            flux += PI * emission.factor * (0.5 * doubled_area.length()) as f32;
+    let shines = |id: &MaterialId| !scene.materials[id.index()].surface.emission().is_zero();
+    each_part(scene, &mut |part| {
+        if part.object.materials.iter().any(shines) {
+            for (material, _, doubled_area) in part.triangles(scene) {
+                let emission = material.surface.emission();
+                if !emission.is_zero() {
+                    flux += PI * emission.factor * (0.5 * doubled_area.length()) as f32;
+                }
+            }
         }
-    }
+    });
     let area = bounds.surface_area() as f32;
     if area > 0.0 { flux / area } else { Rgb::ZERO }
 }

@@ -31,6 +31,22 @@ pub(super) struct Stance {
 }
 
 impl Stance {
+    /// That of a glTF model: y is up and its front faces z, as the format says.
+    pub(super) fn of_gltf(bounds: Aabb) -> Self {
+        /// Depth over width or height below which all there is to see is in front.
+        const SHALLOW: f32 = 0.3;
+        let size = bounds.size();
+        let is_shallow = size.z < SHALLOW * size.x.max(size.y);
+        let is_floor = size.y < FLAT * size.max_element();
+        let (azimuth, elevation): (f64, f64) = match (is_floor, is_shallow) {
+            (true, _) => (30.0, 40.0),
+            (false, true) => (0.0, 0.0),
+            (false, false) => (25.0, 15.0),
+        };
+        let (azimuth, elevation) = (azimuth.to_radians(), elevation.to_radians());
+        Self { up: DVec3::Y, front: DVec3::Z, azimuth, elevation }
+    }
+
     /// Long models are seen more from their side.
     fn turned_to_the_long_side(self, size: DVec3) -> Self {
         /// Depth over width from which a model is long.

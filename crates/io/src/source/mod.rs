@@ -1,4 +1,4 @@
-//! Opening a scene: a `.toml` scene file, or a lone `.obj`.
+//! Opening a scene: a `.toml` scene file, or a lone `.obj`, `.gltf` or `.glb`.
 //!
 //! A [`Source`] keeps the document and the files that it names; [`Source::shot`] evaluates it at a frame. Meshes
 //! and images are read once and shared by all shots.
@@ -9,7 +9,7 @@ mod lone_model;
 use crate::document::Sources;
 use crate::error::{LoadError, Warning};
 use crate::file::read_file;
-use crate::model::exposure_of;
+use crate::gltf::Contents;
 use crate::scene_file::output::Output;
 use crate::scene_file::time::TimeTable;
 use crate::scene_file::{Assets, Built, FileAt, SceneFile, Trouble, build, camera_names};
@@ -32,6 +32,8 @@ pub struct OpenOptions {
     pub overrides: Vec<(String, String)>,
     /// The name of the camera, as `--camera NAME`.
     pub camera: Option<String>,
+    /// The name of the variant of a glTF model's materials, as `--variant NAME`.
+    pub variant: Option<String>,
 }
 
 /// A scene that is open.
@@ -77,7 +79,7 @@ pub struct Shot {
 /// # }
 /// ```
 pub fn open(path: &Path, options: &OpenOptions) -> Result<Source, LoadError> {
-    let is_model = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj"));
+    let is_model = LoneModel::is_at(path);
     let text = if is_model { String::new() } else { read_text(path)? };
     let mut sources = Sources::new(path, &text);
     let opened = Timeline::new(&text, &mut sources, options).and_then(|timeline| {
@@ -88,10 +90,12 @@ pub fn open(path: &Path, options: &OpenOptions) -> Result<Source, LoadError> {
     let assets = Mutex::new(Assets::new(path.parent().unwrap_or(Path::new(""))));
     let mut source = Source { sources, timeline, time, camera_names, assets, model: None };
     if is_model {
-        let model = LoneModel::open(path, &source.timeline, &mut source.assets());
+        let model = LoneModel::open(path, &source.timeline, &mut source.assets(), options);
         let model = model.map_err(|trouble| source.error(trouble))?;
         source.camera_names = model.camera_names();
         source.model = Some(model);
+    } else if options.variant.is_some() {
+        return Err(LoadError::new(path, "has no variants").with_help("name a .gltf or .glb model"));
     }
     Ok(source)
 }
@@ -118,11 +122,10 @@ impl Source {
 
     fn try_shot(&self, seconds: f64) -> Result<Shot, Trouble> {
         let file = self.timeline.at(seconds)?;
-        let built = match &self.model {
-            Some(model) => model.build(&file)?,
-            None => self.build(&file, seconds)?,
+        let (built, usual_exposure) = match &self.model {
+            Some(model) => model.build(&file, seconds, self.time.exposure())?,
+            None => (self.build(&file, seconds)?, 0.0),
         };
-        let usual_exposure = if self.model.is_some() { exposure_of(&built.scene) } else { 0.0 };
         Ok(Shot {
             scene: built.scene,
             settings: built.settings,
@@ -154,7 +157,8 @@ impl Source {
 
     /// The frames of an animation; `None` for a single picture.
     pub fn frames(&self) -> Option<RangeInclusive<i32>> {
-        self.time.frames(self.timeline.last_key())
+        let of_model = self.model.as_ref().and_then(LoneModel::last_key);
+        self.time.frames(self.timeline.last_key().or(of_model))
     }
 
     /// The number of the first frame.
@@ -165,6 +169,11 @@ impl Source {
     /// Frames per second.
     pub fn frame_rate(&self) -> f64 {
         self.time.frame_rate()
+    }
+
+    /// What the file holds, shown or not, when it is a glTF model.
+    pub fn contents(&self) -> Option<Contents> {
+        self.model.as_ref()?.contents()
     }
 
     /// The names of the cameras, in the order of the scene.

@@ -38,7 +38,7 @@ pub(crate) fn shot_with(text: &str, options: &OpenOptions) -> Result<Shot, LoadE
 /// The flags `--set PATH=VALUE`.
 pub(crate) fn set(pairs: &[(&str, &str)]) -> OpenOptions {
     let overrides = pairs.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
-    OpenOptions { overrides, camera: None }
+    OpenOptions { overrides, ..OpenOptions::default() }
 }
 
 /// Asserts that a text is refused, at the place between `«` and `»`.

@@ -1,6 +1,6 @@
 //! What there is in local space, and what rays find there.
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use heliostat_geometry::shape::Root;
 use heliostat_geometry::triangle::TriangleHit;
 use heliostat_geometry::{Hit, Ray, Shape, Transform, TriMesh};
@@ -69,13 +69,25 @@ pub(crate) struct SurfaceAt {
     pub(crate) local: Vec3,
     /// Material slot.
     pub(crate) slot: u16,
+    /// The second set of surface parameters; the first one where there is only that.
+    pub(crate) uv1: Vec2,
     /// Interpolated vertex colour.
     pub(crate) color: Option<Vec3>,
+    /// Interpolated vertex coverage.
+    pub(crate) coverage: f32,
     /// Triangle and weights of its corners.
     pub(crate) triangle: Option<(u32, [f32; 3])>,
 }
 
 impl Body<'_> {
+    /// Whether some of it covers less than all, whatever its material says.
+    pub(super) fn has_holes(&self) -> bool {
+        match self {
+            Self::Shape(_) => false,
+            Self::Mesh { mesh, .. } => !mesh.opacities.is_empty(),
+        }
+    }
+
     /// The nearest meeting in the range of the ray: where on the ray, and the rest in `met`; `place` is the map to world space.
     #[inline]
     pub(super) fn closest(&self, place: &Transform, ray: &Ray, met: &mut Meeting) -> Option<f32> {
@@ -159,7 +171,9 @@ impl Body<'_> {
                     hit: place.hit_to_world(&local),
                     local: local.p.as_vec3(),
                     slot: 0,
+                    uv1: local.uv,
                     color: None,
+                    coverage: 1.0,
                     triangle: None,
                 }
             }
@@ -170,7 +184,9 @@ impl Body<'_> {
                     hit: place.hit_to_world(&local),
                     local: local.p.as_vec3(),
                     slot: mesh.slot(triangle),
+                    uv1: mesh.second_uv(triangle, &hit).unwrap_or(local.uv),
                     color: mesh.color(triangle, &hit),
+                    coverage: mesh.opacity(triangle, &hit),
                     triangle: Some((triangle, hit.barycentric)),
                 }
             }

@@ -104,17 +104,20 @@ impl Filter<'_> {
     /// The surface in one place.
     fn pane_at(&self, surface: &SurfaceAt) -> Pane {
         let material: &Material = &self.scene.materials[self.object.material(surface.slot).index()];
-        let at = TexturePoint { uv: surface.hit.uv, local: surface.local };
-        let eval = MaterialEval { textures: &self.scene.textures, at };
+        let eval = self.eval_at(surface);
         let phong = &*material.surface.phong();
         self.pane(eval.opacity(material), eval.color(&phong.transparency), phong)
+    }
+
+    fn eval_at(&self, surface: &SurfaceAt) -> MaterialEval<'_> {
+        let SurfaceAt { hit, uv1, local, coverage, .. } = *surface;
+        MaterialEval { textures: &self.scene.textures, at: TexturePoint { uv: hit.uv, uv1, local, coverage } }
     }
 
     /// What the surface itself lets through without a bend, and its absorption.
     fn unbent(&self, surface: &SurfaceAt, ray: &Ray) -> (Rgb, Rgb) {
         let material: &Material = &self.scene.materials[self.object.material(surface.slot).index()];
-        let at = TexturePoint { uv: surface.hit.uv, local: surface.local };
-        let eval = MaterialEval { textures: &self.scene.textures, at };
+        let eval = self.eval_at(surface);
         let opacity = eval.opacity(material);
         let open = Rgb::splat(1.0 - opacity);
         if opacity == 0.0 || !material.surface.passes_straight() {

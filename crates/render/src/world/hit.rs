@@ -1,7 +1,8 @@
 //! What a ray met: a surface point and whose it is.
 
 use super::thing::Thing;
-use glam::Vec3;
+use crate::texture_eval::TexturePoint;
+use glam::{Vec2, Vec3};
 use heliostat_geometry::Hit;
 use heliostat_scene::{MaterialId, Rgb};
 
@@ -31,8 +32,12 @@ pub struct SurfaceHit {
     pub part: u64,
     /// Position in the local space of the owner; on groups, of the part.
     pub local: Vec3,
+    /// The second set of surface parameters; that of the hit where there is only one.
+    pub uv1: Vec2,
     /// Interpolated vertex colour, where the mesh has one.
     pub color: Option<Rgb>,
+    /// Interpolated vertex coverage; 1 where the mesh has none.
+    pub coverage: f32,
     /// The triangle and the weights of its corners, on meshes.
     pub triangle: Option<(u32, [f32; 3])>,
 }
@@ -50,6 +55,12 @@ impl SurfaceHit {
     #[inline]
     pub(crate) fn thing(&self) -> Option<Thing> {
         Some(Thing { solid: self.object()?, part: self.part })
+    }
+
+    /// Where its textures are looked at.
+    pub(crate) fn texture_point(&self) -> TexturePoint {
+        let Self { hit, uv1, local, coverage, .. } = *self;
+        TexturePoint { uv: hit.uv, uv1, local, coverage }
     }
 
     /// The material, unless the surface belongs to a light.

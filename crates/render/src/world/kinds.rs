@@ -52,8 +52,9 @@ pub(super) fn shadow_of(scene: &Scene, object: &Object, content: &Content<'_>, c
     match content {
         _ if !object.casts_shadow => Shadow::NONE,
         Content::Group(group) => group.shadow(),
-        Content::Body(_) => {
-            let filters = object.materials.iter().any(|id| lets_through(&scene.materials[id.index()]));
+        Content::Body(body) => {
+            let is_open = |id: &MaterialId| lets_through(&scene.materials[id.index()]);
+            let filters = body.has_holes() || object.materials.iter().any(is_open);
             Shadow { stops: !filters, filters }
         }
     }

@@ -332,12 +332,12 @@ impl<'s> World<'s> {
     /// A surface with its owner.
     #[inline(always)]
     fn owned(&self, solid: u32, part: u64, object: Option<&Object>, found: SurfaceAt) -> SurfaceHit {
-        let SurfaceAt { hit, local, slot, color, triangle } = found;
+        let SurfaceAt { hit, local, slot, uv1, color, coverage, triangle } = found;
         let owner = match object {
             Some(object) => Owner::Object { index: solid, material: object.material(slot) },
             None => Owner::Light(self.shining[solid as usize - self.scene.objects.len()]),
         };
-        SurfaceHit { hit, owner, part, local, color, triangle }
+        SurfaceHit { hit, owner, part, local, uv1, color, coverage, triangle }
     }
 
     /// Shows a thing at a moment to a closure; `None` where it has no place then.

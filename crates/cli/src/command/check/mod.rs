@@ -42,7 +42,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
 /// All warnings, and the error that ended the search.
 fn findings(args: &CheckArgs) -> (Vec<heliostat_io::Warning>, Option<LoadError>) {
     let mut warnings = Vec::new();
-    let source = match open::source(&args.scene, &args.set, None) {
+    let source = match open::source(&args.scene, &args.set, None, args.variant.as_deref()) {
         Ok(source) => source,
         Err(error) => return (warnings, Some(error)),
     };

@@ -1,5 +1,6 @@
 //! `heliostat info`: what is in a scene, a model or an image.
 
+mod gltf;
 mod image;
 mod scene;
 
@@ -13,7 +14,7 @@ pub(crate) fn run(args: &InfoArgs) -> Result<Exit, Failure> {
     let is_scene = args
         .file
         .extension()
-        .is_some_and(|e| ["toml", "obj"].iter().any(|scene| e.eq_ignore_ascii_case(scene)));
+        .is_some_and(|e| ["toml", "obj", "gltf", "glb"].iter().any(|scene| e.eq_ignore_ascii_case(scene)));
     let info = if is_scene { scene::info(&args.file)? } else { image::info(&args.file)? };
     if args.json {
         out::line(format_args!("{:#}", info.json));

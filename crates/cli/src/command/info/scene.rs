@@ -1,6 +1,6 @@
 //! What is in a scene or a model.
 
-use super::Info;
+use super::{Info, gltf};
 use crate::diagnose::Failure;
 use crate::exit::Exit;
 use crate::table::{self, Table};
@@ -21,8 +21,13 @@ pub(super) fn info(path: &Path) -> Result<Info, Failure> {
     let frames = source.frames();
     let shot = source.shot(source.first_frame())?;
     let frames = frames.map(|f| [*f.start(), *f.end()]);
-    let json = json(path, &shot, frames, source.frame_rate())?;
-    Ok(Info { text: text(&shot, &json), json })
+    let mut json = json(path, &shot, frames, source.frame_rate())?;
+    let mut text = text(&shot, &json);
+    if let Some(contents) = source.contents() {
+        text.push_str(&gltf::text(&contents));
+        json["gltf"] = json!(contents);
+    }
+    Ok(Info { text, json })
 }
 
 fn json(path: &Path, shot: &Shot, frames: Option<[i32; 2]>, frame_rate: f64) -> Result<Value, Failure> {
@@ -171,7 +176,7 @@ fn text(shot: &Shot, json: &Value) -> String {
     text
 }
 
-fn names<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {
+pub(super) fn names<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {
     const LONGEST: usize = 12;
     let count = names.len();
     let shown: Vec<_> = names.take(LONGEST).collect();

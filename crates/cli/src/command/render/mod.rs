@@ -33,7 +33,9 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Exit, Failure> {
     let planned = outputs.iter().map(|output| output.path(0));
     planned.chain(args.run.stats.clone()).try_for_each(|path| check_writable(&path))?;
     let signals = Signals::install()?;
-    let source = open::source(&args.scene, &settings::overrides(args), args.picture.camera.as_deref())?;
+    let picture = &args.picture;
+    let (camera, variant) = (picture.camera.as_deref(), picture.variant.as_deref());
+    let source = open::source(&args.scene, &settings::overrides(args), camera, variant)?;
     let frames = frames(args, &source)?;
     let progress = Progress::new(args.run.progress, frames.len());
     let report = Report::new(&args.scene, args.run.threads.into(), started);

@@ -320,7 +320,7 @@ impl<'s> AreaLight<'s> {
             Radiance::Constant(radiance) => radiance,
             Radiance::Object(scene, object) => {
                 let material = &scene.materials[object.material(sample.slot).index()];
-                let at = TexturePoint { uv: sample.point.uv, local: sample.point.p.as_vec3() };
+                let at = TexturePoint::plain(sample.point.uv, sample.point.p.as_vec3());
                 let eval = MaterialEval { textures: &scene.textures, at };
                 eval.opacity(material) * eval.color(&material.surface.emission())
             }
