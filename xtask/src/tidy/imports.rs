@@ -32,6 +32,7 @@ const GRAPH: &[Allowed] = &[
         outside: &[
             "earcut",
             "exr",
+            "gltf",
             "glam",
             "half",
             "image",
