@@ -215,13 +215,30 @@ pub fn clipped_corner(extent: f32) -> f64 {
 /// [`cell_padding`].
 #[inline(always)]
 pub fn inverse_direction(dir: Vec3A) -> Vec3A {
-    const SMALLEST: f32 = 1e-20;
     let size = dir.abs();
-    if size.max_element() > 1e8 * SMALLEST {
-        1.0 / size.max(Vec3A::splat(SMALLEST)).copysign(dir)
-    } else {
+    if is_tiny(size.max_element()) {
         inverse_of_tiny(dir)
+    } else {
+        1.0 / size.max(Vec3A::splat(LEAST_COMPONENT)).copysign(dir)
     }
+}
+
+/// What counts as nothing in a direction.
+const LEAST_COMPONENT: f32 = 1e-20;
+
+/// Whether a direction whose largest component is `size` is not much longer than what counts as nothing in it.
+#[inline(always)]
+pub fn is_tiny(size: f32) -> bool {
+    let is_long = size > 1e8 * LEAST_COMPONENT;
+    !is_long
+}
+
+/// [`inverse_direction`] along one axis of a direction that is not [tiny](is_tiny).
+#[inline(always)]
+pub fn inverse_component(component: f32) -> f32 {
+    let size = component.abs();
+    let size = if size > LEAST_COMPONENT { size } else { LEAST_COMPONENT };
+    1.0 / size.copysign(component)
 }
 
 /// [`inverse_direction`] of one that is not much longer than what counts as nothing there.

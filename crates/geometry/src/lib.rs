@@ -17,7 +17,7 @@
 //!
 //! # Reading order
 //!
-//! [`ray`], [`aabb`], [`transform`], [`error_bound`], [`hit`], [`shape`], [`triangle`], [`mesh`], [`warp`].
+//! [`ray`], [`aabb`], [`transform`], [`error_bound`], [`hit`], [`shape`], [`triangle`], [`triangle_columns`], [`mesh`], [`warp`].
 
 pub mod aabb;
 pub mod error_bound;
@@ -30,6 +30,7 @@ pub mod shape;
 pub mod strategies;
 pub mod transform;
 pub mod triangle;
+pub mod triangle_columns;
 pub mod warp;
 
 pub use aabb::Aabb;

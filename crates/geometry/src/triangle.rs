@@ -69,6 +69,12 @@ impl TriangleRay {
         self.origin
     }
 
+    /// The direction in that order.
+    #[inline(always)]
+    pub fn dir(&self) -> Vec3A {
+        self.dir
+    }
+
     /// Slopes of the direction along the first two axes of that order over the last one, and one over the direction along that.
     #[inline(always)]
     pub fn slope(&self) -> Vec3A {

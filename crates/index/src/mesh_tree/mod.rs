@@ -4,8 +4,11 @@
 //! asked of the mesh after the build, its normals and so on, stays in the mesh.
 
 mod block;
+mod eyes;
+mod many;
 mod queries;
 mod search;
+mod seen;
 
 use crate::bsp::build::{LeafLayout, build};
 use crate::bsp::visited::Visited;
@@ -16,7 +19,9 @@ use crate::wide::walk::{Counter, TraversalCost, Uncounted};
 use block::Block;
 use heliostat_geometry::triangle::{TriangleHit, TriangleRay, intersect};
 use heliostat_geometry::{Ray, TriMesh};
-use queries::{Closest, ManyClosest, ManyOccluded, Occluded, Visit};
+use many::Ask;
+use queries::{Closest, Occluded, OfMany, Visit};
+use std::marker::PhantomData;
 use std::time::Instant;
 
 /// A hit on a mesh.
@@ -61,8 +66,6 @@ pub struct MeshTree {
     tree: BspTree,
     /// The triangles of the references of the tree, group by group.
     blocks: Vec<Block>,
-    /// For each block, a bit for each lane that holds a triangle with an area.
-    present: Vec<u8>,
     build_seconds: f64,
 }
 
@@ -80,8 +83,7 @@ impl MeshTree {
         let triangle = |group: &[u32], lane: usize| is_new(group, lane).then(|| mesh.corners(group[lane]));
         let block = |group: &[u32]| Block::new((0..LANES).map(|lane| triangle(group, lane)));
         let blocks = parallel::map_chunks(tree.leaf_refs(), LANES, block);
-        let present = parallel::map_chunks(&blocks, 1, |block: &[Block]| block[0].present());
-        Ok(Self { tree, blocks, present, build_seconds: begin.elapsed().as_secs_f64() })
+        Ok(Self { tree, blocks, build_seconds: begin.elapsed().as_secs_f64() })
     }
 
     /// The tree inside.
@@ -92,7 +94,7 @@ impl MeshTree {
     /// [`BspTree::stats`], with the triangles that were laid out: their bytes, and the time that took.
     pub fn stats(&self) -> TreeStats {
         let stats = self.tree.stats();
-        let bytes = stats.bytes + self.blocks.len() * (size_of::<Block>() + 1);
+        let bytes = stats.bytes + self.blocks.len() * size_of::<Block>();
         TreeStats { bytes, build_seconds: self.build_seconds, ..stats }
     }
 
@@ -125,16 +127,16 @@ impl MeshTree {
     /// [`MeshTree::closest_hit`] of many rays, in their order, and sooner than one after the other: while one waits for memory,
     /// others go on. Rays that start and run alike belong beside each other.
     pub fn closest_hits(&self, rays: &[Ray]) -> Vec<Option<MeshHit>> {
-        let mut hits = Vec::with_capacity(rays.len());
-        self.tree.backend().run(ManyClosest { tree: self, rays, hits: &mut hits });
-        hits
+        self.ask_many::<many::Nearest>(rays)
     }
 
     /// [`MeshTree::any_hit`] of many rays, in their order.
     pub fn any_hits(&self, rays: &[Ray]) -> Vec<bool> {
-        let mut hits = Vec::with_capacity(rays.len());
-        self.tree.backend().run(ManyOccluded { tree: self, rays, hits: &mut hits });
-        hits
+        self.ask_many::<many::Any>(rays)
+    }
+
+    fn ask_many<A: Ask>(&self, rays: &[Ray]) -> Vec<A::Answer> {
+        self.tree.backend().run(OfMany { tree: self, rays, ask: PhantomData::<A> })
     }
 
     /// Visits every hit within the range of the ray, each triangle once, in no certain order.

@@ -1,11 +1,13 @@
 //! The queries, as tasks for a back end.
 
+use super::many::{Ask, Many};
 use super::search::{Any, Each, Nearest};
 use super::{MeshHit, MeshTree};
 use crate::simd::{Lanes, Task};
-use crate::wide::batch::{Question, walk_together};
+use crate::wide::batch::walk_together;
 use crate::wide::walk::{Counter, Uncounted, walk};
 use heliostat_geometry::Ray;
+use std::marker::PhantomData;
 
 /// The query for the nearest hit.
 pub(super) struct Closest<'a, C> {
@@ -44,63 +46,21 @@ impl Task for Occluded<'_> {
     }
 }
 
-/// The query for the nearest hits of many rays.
-pub(super) struct ManyClosest<'a> {
+/// A query for many rays.
+pub(super) struct OfMany<'a, A> {
     pub(super) tree: &'a MeshTree,
     pub(super) rays: &'a [Ray],
-    pub(super) hits: &'a mut Vec<Option<MeshHit>>,
+    pub(super) ask: PhantomData<A>,
 }
 
-impl Task for ManyClosest<'_> {
-    type Output = ();
+impl<A: Ask> Task for OfMany<'_, A> {
+    type Output = Vec<A::Answer>;
 
     #[inline(always)]
-    fn run<L: Lanes>(mut self, lanes: L) {
-        walk_together(lanes, self.tree.tree.wide(), self.rays, &mut self);
-    }
-}
-
-impl<'a> Question<'a> for ManyClosest<'a> {
-    type Search = Nearest<'a>;
-
-    #[inline(always)]
-    fn start<L: Lanes>(&self, lanes: L, ray: &'a Ray) -> Nearest<'a> {
-        Nearest::new(lanes, self.tree, ray)
-    }
-
-    #[inline(always)]
-    fn finish(&mut self, search: &Nearest<'a>) {
-        self.hits.push(search.finish());
-    }
-}
-
-/// The query for any hit of many rays.
-pub(super) struct ManyOccluded<'a> {
-    pub(super) tree: &'a MeshTree,
-    pub(super) rays: &'a [Ray],
-    pub(super) hits: &'a mut Vec<bool>,
-}
-
-impl Task for ManyOccluded<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<L: Lanes>(mut self, lanes: L) {
-        walk_together(lanes, self.tree.tree.wide(), self.rays, &mut self);
-    }
-}
-
-impl<'a> Question<'a> for ManyOccluded<'a> {
-    type Search = Any<'a>;
-
-    #[inline(always)]
-    fn start<L: Lanes>(&self, lanes: L, ray: &'a Ray) -> Any<'a> {
-        Any::new(lanes, self.tree, ray)
-    }
-
-    #[inline(always)]
-    fn finish(&mut self, search: &Any<'a>) {
-        self.hits.push(search.found);
+    fn run<L: Lanes>(self, lanes: L) -> Vec<A::Answer> {
+        let mut many = Many::<A>::new(self.tree, self.rays.len());
+        walk_together(lanes, self.tree.tree.wide(), self.rays, &mut many);
+        many.answers
     }
 }
 

@@ -17,7 +17,7 @@ use heliostat_geometry::{Interval, Ray};
 /// It knows the ray as it came: what is prepared for lanes can then stay in registers.
 #[cold]
 #[inline(never)]
-fn exact(tree: &MeshTree, ray: &Ray, slot: usize) -> Option<MeshHit> {
+pub(super) fn exact(tree: &MeshTree, ray: &Ray, slot: usize) -> Option<MeshHit> {
     let corners = tree.blocks[slot / LANES].corners(slot % LANES);
     let hit = intersect(&TriangleRay::new(ray), ray.range, corners)?;
     Some(MeshHit { triangle: tree.tree.leaf_refs()[slot], hit })
@@ -41,16 +41,16 @@ fn overtakes(tree: &MeshTree, ray: &Ray, slot: usize, best: Option<usize>) -> Op
 
 /// The first block of a leaf, and how many there are.
 #[inline(always)]
-fn blocks_of(leaf: u32) -> (usize, usize) {
+pub(super) fn blocks_of(leaf: u32) -> (usize, usize) {
     ((leaf & 0xFF_FFFF) as usize, (leaf >> 24) as usize)
 }
 
 impl MeshTree {
-    /// The number of the first block of a leaf, its blocks, and for each the lanes that hold a triangle.
+    /// The number of the first block of a leaf, and its blocks.
     #[inline(always)]
-    fn leaf(&self, leaf: u32) -> (usize, &[Block], &[u8]) {
+    fn leaf(&self, leaf: u32) -> (usize, &[Block]) {
         let (first, count) = blocks_of(leaf);
-        (first, &self.blocks[first..][..count], &self.present[first..][..count])
+        (first, &self.blocks[first..][..count])
     }
 }
 
@@ -99,10 +99,10 @@ impl Search for Nearest<'_> {
     fn leaf<L: Lanes>(&mut self, lanes: L, leaf: u32, counter: &mut impl Counter) -> f32 {
         counter.leaf(LANES * blocks_of(leaf).1);
         let start = greater(self.ray.range.min, 0.0);
-        let (first, blocks, present) = self.tree.leaf(leaf);
+        let (first, blocks) = self.tree.leaf(leaf);
         for (i, block) in blocks.iter().enumerate() {
             let range = Interval { min: start, max: self.high };
-            let Some(found) = self.block_ray.meet(lanes, block, present[i], range) else { continue };
+            let Some(found) = self.block_ray.meet(lanes, block, range) else { continue };
             let (lows, highs) = (lanes.store(found.low), lanes.store(found.high));
             let mut candidates = found.lanes;
             while candidates != 0 {
@@ -145,9 +145,9 @@ impl Search for Any<'_> {
     fn leaf<L: Lanes>(&mut self, lanes: L, leaf: u32, counter: &mut impl Counter) -> f32 {
         counter.leaf(LANES * blocks_of(leaf).1);
         let range = Interval { min: greater(self.ray.range.min, 0.0), ..self.ray.range };
-        let (first, blocks, present) = self.tree.leaf(leaf);
+        let (first, blocks) = self.tree.leaf(leaf);
         for (i, block) in blocks.iter().enumerate() {
-            let Some(found) = self.block_ray.meet(lanes, block, present[i], range) else { continue };
+            let Some(found) = self.block_ray.meet(lanes, block, range) else { continue };
             let mut doubtful = if found.certain == 0 { found.lanes } else { 0 };
             self.found = found.certain != 0;
             while doubtful != 0 && !self.found {
@@ -185,9 +185,9 @@ impl<V: FnMut(MeshHit)> Search for Each<'_, V> {
     fn leaf<L: Lanes>(&mut self, lanes: L, leaf: u32, counter: &mut impl Counter) -> f32 {
         counter.leaf(LANES * blocks_of(leaf).1);
         let range = self.ray.range;
-        let (first, blocks, present) = self.tree.leaf(leaf);
+        let (first, blocks) = self.tree.leaf(leaf);
         for (i, block) in blocks.iter().enumerate() {
-            let Some(found) = self.block_ray.meet(lanes, block, present[i], range) else { continue };
+            let Some(found) = self.block_ray.meet(lanes, block, range) else { continue };
             let mut candidates = found.lanes;
             while candidates != 0 {
                 let lane = candidates.trailing_zeros() as usize % LANES;

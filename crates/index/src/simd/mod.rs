@@ -15,7 +15,7 @@ pub(crate) mod stack;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
-pub(crate) use stack::{END, Pending, Stack, StackRoom};
+pub(crate) use stack::{END, Pending, Stack, StackRoom, Stacks};
 
 use glam::Vec3A;
 use std::marker::PhantomData;
@@ -99,12 +99,21 @@ pub(crate) trait Lanes: Copy {
     fn later(self, a: Self::F, b: Self::F) -> Self::F;
     /// The larger of the absolute values; any of them where one is NaN.
     fn larger_size(self, a: Self::F, b: Self::F) -> Self::F;
+    /// `a`, with the other sign where `b` is negative or -0.
+    fn signed_by(self, a: Self::F, b: Self::F) -> Self::F;
     /// A bit for each lane in which `a < b`.
     fn lt(self, a: Self::F, b: Self::F) -> u32;
     /// A bit for each lane that has a zero.
     fn any_zero(self, a: Self::F, b: Self::F, c: Self::F) -> u32;
     /// A bit for each lane that has one number below 0 and another above; either where one is NaN.
     fn mixed_signs(self, a: Self::F, b: Self::F, c: Self::F) -> u32;
+
+    /// Runs plain loops over columns, in code that knows of no wider registers than the lanes: the processor has fewer units for
+    /// everything else while wider ones are in use.
+    #[inline(always)]
+    fn run_loops<T: Task>(self, loops: T) -> T::Output {
+        loops.run(self)
+    }
 
     /// The coordinates in cyclic order, axis `along` of 0, 1, 2 last.
     fn turned(self, along: usize, v: Vec3A) -> Vec3A;
@@ -125,17 +134,23 @@ pub(crate) trait Lanes: Copy {
         forgets: bool,
     ) -> u32;
 
-    /// [`Lanes::enter`] without a branch, for many rays in turn: what comes next is hard to foresee. Where the stack is empty,
-    /// [`END`] comes from below it, and nothing may be taken from it any more.
-    fn enter_evenly(
+    /// Pushes all children with `near <= far`, so that the first in `order` is on top: without a branch, for many rays in turn, for
+    /// which what comes next is hard to foresee.
+    fn push_met(
         self,
-        stack: &mut Self::Stack<'_>,
+        stack: &mut Stack<'_, false>,
         near: Self::F,
         far: Self::F,
         children: &[u32; LANES],
         order: u32,
         forgets: bool,
-    ) -> u32;
+    );
+
+    /// Forgets all children on the stack of one of many rays that are entered beyond `limit`.
+    #[inline(always)]
+    fn forget_of_many(self, stack: &mut Stack<'_, false>, limit: f32) {
+        stack.forget_beyond(limit);
+    }
 
     /// Forgets all children on the stack that are entered beyond `limit`.
     #[inline(always)]

@@ -95,6 +95,11 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
+    fn signed_by(self, a: Self::F, b: Self::F) -> Self::F {
+        Self::zip(a, b, |a, b| if b.is_sign_negative() { -a } else { a })
+    }
+
+    #[inline(always)]
     fn lt(self, a: Self::F, b: Self::F) -> u32 {
         Self::bits(|i| a[i] < b[i])
     }
@@ -126,27 +131,27 @@ impl Lanes for Portable {
         far: Self::F,
         children: &[u32; LANES],
         order: u32,
-        _forgets: bool,
+        forgets: bool,
     ) -> u32 {
+        self.push_met(stack, near, far, children, order, forgets);
+        stack.pop()
+    }
+
+    #[inline(always)]
+    fn push_met(
+        self,
+        stack: &mut Stack<'_, false>,
+        near: Self::F,
+        far: Self::F,
+        children: &[u32; LANES],
+        order: u32,
+        _forgets: bool,
+    ) {
         for place in (0..LANES).rev() {
             let lane = (order >> (3 * place)) as usize % LANES;
             if near[lane] <= far[lane] {
                 stack.push(children[lane], near[lane]);
             }
         }
-        stack.pop()
-    }
-
-    #[inline(always)]
-    fn enter_evenly(
-        self,
-        stack: &mut Self::Stack<'_>,
-        near: Self::F,
-        far: Self::F,
-        children: &[u32; LANES],
-        order: u32,
-        forgets: bool,
-    ) -> u32 {
-        self.enter(stack, near, far, children, order, forgets)
     }
 }

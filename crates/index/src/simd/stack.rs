@@ -1,6 +1,6 @@
 //! The stack of a walk: children still to be entered, with the distances at which the ray does.
 
-use super::LANES;
+use super::{LANES, Lanes};
 use crate::bsp::params::MAX_DEPTH;
 use std::marker::PhantomData;
 use std::mem::MaybeUninit;
@@ -32,9 +32,6 @@ pub(crate) trait Pending<'r> {
     /// An empty stack.
     fn new(room: &'r mut StackRoom) -> Self;
 
-    /// An empty stack with [`END`] below it, for [`super::Lanes::enter_evenly`].
-    fn with_end(room: &'r mut StackRoom) -> Self;
-
     /// Forgets all children.
     fn clear(&mut self);
 
@@ -55,7 +52,16 @@ pub(crate) struct Stack<'r, const DOWN: bool> {
     room: PhantomData<&'r mut StackRoom>,
 }
 
-impl<const DOWN: bool> Stack<'_, DOWN> {
+impl<'r, const DOWN: bool> Stack<'r, DOWN> {
+    /// An empty stack, nothing of which is written.
+    #[inline(always)]
+    fn at(room: &'r mut StackRoom) -> Self {
+        let places = room.0.as_mut_ptr();
+        // SAFETY: the places are there, if not yet written; these are their addresses.
+        let (children, nears) = unsafe { (&raw mut (*places).children, &raw mut (*places).nears) };
+        Self { children: children.cast(), nears: nears.cast(), top: Self::BOTTOM, room: PhantomData }
+    }
+
     /// The top of an empty stack.
     const BOTTOM: usize = if DOWN { PLACES - LANES } else { LANES };
 
@@ -122,17 +128,11 @@ impl<const DOWN: bool> Stack<'_, DOWN> {
         self.top = if DOWN { self.top - count } else { self.top + count };
     }
 
-    /// The child on top; without any, what is below the stack.
-    #[inline(always)]
-    pub(super) fn top(&self) -> u32 {
-        // SAFETY: the place is one of those that are written.
-        unsafe { self.children.add(self.top).read() }
-    }
-
     /// Takes the child on top away.
     #[inline(always)]
     pub(super) fn take(&mut self) -> u32 {
-        let child = self.top();
+        // SAFETY: the place is one of those that are written.
+        let child = unsafe { self.children.add(self.top).read() };
         self.top = if DOWN { self.top + 1 } else { self.top - 1 };
         child
     }
@@ -141,21 +141,10 @@ impl<const DOWN: bool> Stack<'_, DOWN> {
 impl<'r, const DOWN: bool> Pending<'r> for Stack<'r, DOWN> {
     #[inline(always)]
     fn new(room: &'r mut StackRoom) -> Self {
-        let places = room.0.as_mut_ptr();
-        // SAFETY: the places are there, if not yet written; these are their addresses.
-        let (children, nears) = unsafe { (&raw mut (*places).children, &raw mut (*places).nears) };
-        let mut stack =
-            Self { children: children.cast(), nears: nears.cast(), top: Self::BOTTOM, room: PhantomData };
+        let mut stack = Self::at(room);
         for place in Self::LOWEST_ROW..Self::LOWEST_ROW + LANES {
             stack.write(place, END, f32::INFINITY);
         }
-        stack
-    }
-
-    #[inline(always)]
-    fn with_end(room: &'r mut StackRoom) -> Self {
-        let mut stack = Self::new(room);
-        stack.write(Self::BOTTOM, END, f32::NEG_INFINITY);
         stack
     }
 
@@ -184,5 +173,69 @@ impl<'r, const DOWN: bool> Pending<'r> for Stack<'r, DOWN> {
             to = if near <= limit { Self::above(to) } else { to };
         }
         self.top = to;
+    }
+}
+
+/// The stacks of `N` rays, all upward, in their rooms.
+pub(crate) struct Stacks<'r, const N: usize> {
+    rooms: &'r mut [StackRoom; N],
+    tops: [u32; N],
+}
+
+impl<'r, const N: usize> Stacks<'r, N> {
+    /// Empty stacks, with [`END`] below each.
+    #[inline(always)]
+    pub(crate) fn new(rooms: &'r mut [StackRoom; N]) -> Self {
+        let bottom = Stack::<false>::BOTTOM;
+        for room in rooms.iter_mut() {
+            Stack::<false>::new(room).write(bottom, END, f32::NEG_INFINITY);
+        }
+        Self { rooms, tops: [bottom as u32; N] }
+    }
+
+    /// Forgets all children of all.
+    #[inline(always)]
+    pub(crate) fn clear(&mut self) {
+        self.tops = [Stack::<false>::BOTTOM as u32; N];
+    }
+
+    /// Takes the child on top of the stack of a ray; [`END`] where there is none, and nothing may be taken any more.
+    #[inline(always)]
+    pub(crate) fn take(&mut self, ray: usize) -> u32 {
+        let mut stack = self.stack(ray);
+        let child = stack.take();
+        self.tops[ray] = stack.top as u32;
+        child
+    }
+
+    /// [`Lanes::push_met`] on the stack of a ray.
+    #[inline(always)]
+    pub(crate) fn push_met<L: Lanes>(
+        &mut self,
+        lanes: L,
+        ray: usize,
+        (near, far): (L::F, L::F),
+        children: &[u32; LANES],
+        order: u32,
+        forgets: bool,
+    ) {
+        let mut stack = self.stack(ray);
+        lanes.push_met(&mut stack, near, far, children, order, forgets);
+        self.tops[ray] = stack.top as u32;
+    }
+
+    /// [`Lanes::forget_of_many`] on the stack of a ray.
+    #[inline(always)]
+    pub(crate) fn forget_beyond(&mut self, lanes: impl Lanes, ray: usize, limit: f32) {
+        let mut stack = self.stack(ray);
+        lanes.forget_of_many(&mut stack, limit);
+        self.tops[ray] = stack.top as u32;
+    }
+
+    /// The stack of a ray as it was left.
+    #[inline(always)]
+    fn stack(&mut self, ray: usize) -> Stack<'_, false> {
+        let top = self.tops[ray] as usize;
+        Stack { top, ..Stack::at(&mut self.rooms[ray]) }
     }
 }

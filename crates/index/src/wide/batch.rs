@@ -2,151 +2,153 @@
 //!
 //! One ray alone spends much of its time waiting: for the node it has just chosen, and for what was wrongly guessed to come
 //! next. Here all rays of a batch go on to their next node before the first has its turn again, and what a ray does next is
-//! noted in a list instead of branched on. First all rays walk until they stand at a leaf, then they search it.
+//! noted as a bit instead of branched on. First all rays walk until they stand at a leaf, then all leaves are searched.
 //!
 //! # Source
 //! Barringer and Akenine-Möller, "Dynamic Ray Stream Traversal", SIGGRAPH 2014 (lists of rays instead of packets).
 
-use super::ray::BoxRay;
-use super::walk::{Boxes, Meet, Search, Sides, Uncounted, walk};
-use super::{LEAF, Wide};
-use crate::simd::{END, Lanes, Pending, StackRoom};
+use super::rays::{BoxRays, PerRay, Rays, TOGETHER};
+use super::set::Set;
+use super::walk::Meet;
+use super::{LEAF, Wide, WideNode};
+use crate::simd::{END, Lanes, StackRoom, Stacks, Task};
 use heliostat_geometry::Ray;
 
-/// So many rays take turns: enough to hide how long one waits, few enough to stay in the nearest cache.
-const TOGETHER: usize = 32;
+/// What is asked of all rays.
+pub(crate) trait Question {
+    /// Whether a leaf may bring the distance down up to which hits matter.
+    const SHORTENS: bool;
 
-/// What is asked of all rays of a batch.
-pub(crate) trait Question<'a> {
-    type Search: Search;
+    /// Begins with other rays.
+    fn begin<L: Lanes>(&mut self, lanes: L, rays: &Rays);
 
-    /// Starts the search for one ray.
-    fn start<L: Lanes>(&self, lanes: L, ray: &'a Ray) -> Self::Search;
+    /// Answers for a ray that cannot be walked with others.
+    fn ask_alone(&mut self, rays: &Rays, ray: usize);
 
-    /// Takes what came of it; for the rays in their order.
-    fn finish(&mut self, search: &Self::Search);
+    /// Searches the leaves at which some rays stand. Brings `limits` down, up to which hits matter, minus infinity where none does
+    /// any more; gives the rays for which it did. What `leaves` says of these rays is not needed afterwards.
+    fn search<L: Lanes>(
+        &mut self,
+        lanes: L,
+        rays: &Rays,
+        at_leaves: Set,
+        leaves: &mut PerRay<u32>,
+        limits: &mut PerRay<f32>,
+    ) -> Set;
+
+    /// All rays are through.
+    fn finish(&mut self, rays: &Rays);
 }
 
-/// A ray on its way.
-struct Walker<'r, L: Lanes + 'r, S> {
-    boxes: Boxes<L>,
-    stack: L::Stack<'r>,
-    search: S,
+/// Rays on their way.
+struct Walkers<'r> {
+    rays: Rays,
+    boxes: BoxRays,
+    stacks: Stacks<'r, TOGETHER>,
     /// Up to which distance hits matter.
-    limit: f32,
-    /// Where it goes next.
-    child: u32,
-}
-
-/// Numbers of rays, in order.
-struct List {
-    rays: [u8; TOGETHER],
-    len: usize,
-}
-
-impl List {
-    const EMPTY: Self = Self { rays: [0; TOGETHER], len: 0 };
-
-    /// Adds a ray, or does not: without a branch.
-    #[inline(always)]
-    fn add(&mut self, ray: u8, counts: bool) {
-        self.rays[self.len % TOGETHER] = ray;
-        self.len += usize::from(counts);
-    }
+    limits: PerRay<f32>,
+    /// Where each goes next.
+    children: PerRay<u32>,
+    at_nodes: Set,
+    at_leaves: Set,
 }
 
 /// Walks the leaves that each of the rays meets.
 #[inline(always)]
-pub(crate) fn walk_together<'a, L: Lanes, Q: Question<'a>>(
-    lanes: L,
-    wide: &Wide,
-    rays: &'a [Ray],
-    question: &mut Q,
-) {
+pub(crate) fn walk_together<L: Lanes>(lanes: L, wide: &Wide, rays: &[Ray], question: &mut impl Question) {
     let mut rooms = [const { StackRoom::new() }; TOGETHER];
-    let mut walkers: Vec<Walker<'_, L, Q::Search>> = Vec::with_capacity(TOGETHER);
-    for (ray, room) in rays.iter().zip(&mut rooms) {
-        let box_ray = BoxRay::new(ray, &wide.room);
-        let boxes = Boxes::new(lanes, Sides::new(&box_ray), &box_ray);
-        let (stack, search) = (L::Stack::with_end(room), question.start(lanes, ray));
-        walkers.push(Walker { boxes, stack, search, limit: 0.0, child: END });
-    }
+    let mut walkers = Walkers {
+        rays: Rays::NONE,
+        boxes: BoxRays::NONE,
+        stacks: Stacks::new(&mut rooms),
+        limits: [0.0; TOGETHER],
+        children: [END; TOGETHER],
+        at_nodes: Set::EMPTY,
+        at_leaves: Set::EMPTY,
+    };
     for rays in rays.chunks(TOGETHER) {
-        let mut at_nodes = List::EMPTY;
-        for (number, (ray, walker)) in rays.iter().zip(&mut walkers).enumerate() {
-            let box_ray = BoxRay::new(ray, &wide.room);
-            walker.boxes = Boxes::new(lanes, Sides::new(&box_ray), &box_ray);
-            walker.search = question.start(lanes, ray);
-            walker.stack.clear();
-            (walker.limit, walker.child) = (ray.range.max, 0);
-            at_nodes.add(number as u8, !box_ray.blurs);
-            if box_ray.blurs {
-                walk(lanes, wide, ray, ray.range.max, &mut walker.search, &mut Uncounted);
+        lanes.run_loops(Begin { walkers: &mut walkers, wide, rays });
+        question.begin(lanes, &walkers.rays);
+        for ray in 0..walkers.rays.len {
+            let is_alone = walkers.boxes.is_alone(ray);
+            walkers.at_nodes.add(ray, !is_alone);
+            if is_alone {
+                question.ask_alone(&walkers.rays, ray);
             }
         }
-        take_turns(lanes, wide, &mut walkers, at_nodes);
-        for walker in &walkers[..rays.len()] {
-            question.finish(&walker.search);
+        if !wide.nodes.is_empty() {
+            walkers.take_turns(lanes, &wide.nodes, question);
         }
+        question.finish(&walkers.rays);
     }
 }
 
-/// Walks until all rays are through.
-#[inline(always)]
-fn take_turns<L: Lanes, S: Search>(
-    lanes: L,
-    wide: &Wide,
-    walkers: &mut [Walker<'_, L, S>],
-    mut at_nodes: List,
-) {
-    let mut at_leaves = List::EMPTY;
-    if wide.nodes.is_empty() {
-        return;
-    }
-    while at_nodes.len + at_leaves.len > 0 {
-        while at_nodes.len > 0 {
-            let before = std::mem::replace(&mut at_nodes.len, 0);
-            for i in 0..before {
-                let number = at_nodes.rays[i % TOGETHER];
-                let walker = &mut walkers[usize::from(number)];
-                walker.step(lanes, wide);
-                at_nodes.add(number, walker.child & LEAF == 0);
-                at_leaves.add(number, (walker.child & LEAF != 0) & (walker.child != END));
-            }
-        }
-        let before = std::mem::replace(&mut at_leaves.len, 0);
-        for i in 0..before {
-            let number = at_leaves.rays[i % TOGETHER];
-            let walker = &mut walkers[usize::from(number)];
-            walker.search(lanes);
-            at_nodes.add(number, walker.child & LEAF == 0);
-            at_leaves.add(number, (walker.child & LEAF != 0) & (walker.child != END));
-        }
+/// Brings other rays to the root.
+struct Begin<'a, 'r> {
+    walkers: &'a mut Walkers<'r>,
+    wide: &'a Wide,
+    rays: &'a [Ray],
+}
+
+impl Task for Begin<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, _: L) {
+        let Self { walkers, wide, rays } = self;
+        walkers.rays.fill(rays, &wide.room);
+        walkers.boxes.set_up(&walkers.rays, &wide.room);
+        walkers.stacks.clear();
+        (walkers.limits, walkers.children) = (walkers.rays.max, [0; TOGETHER]);
+        (walkers.at_nodes, walkers.at_leaves) = (Set::EMPTY, Set::EMPTY);
     }
 }
 
-impl<L: Lanes, S: Search> Walker<'_, L, S> {
-    /// Passes a node.
+impl Walkers<'_> {
+    /// Walks until all rays are through.
     #[inline(always)]
-    fn step(&mut self, lanes: L, wide: &Wide) {
-        let node = &wide.nodes[self.child as usize];
-        let (near, far) = self.boxes.meet(lanes, node, self.limit);
-        let order = *self.boxes.sides().octant.of(&node.orders);
-        self.child = lanes.enter_evenly(&mut self.stack, near, far, &node.children, order, S::SHORTENS);
+    fn take_turns<L: Lanes, Q: Question>(&mut self, lanes: L, nodes: &[WideNode], question: &mut Q) {
+        loop {
+            while !self.at_nodes.is_empty() {
+                for ray in self.at_nodes.take_all() {
+                    let child = self.step::<L, Q>(lanes, nodes, ray);
+                    self.go_on(ray, child);
+                }
+            }
+            if self.at_leaves.is_empty() {
+                return;
+            }
+            let searched = self.at_leaves.take_all();
+            let shortened =
+                question.search(lanes, &self.rays, searched, &mut self.children, &mut self.limits);
+            if Q::SHORTENS {
+                for ray in shortened {
+                    self.stacks.forget_beyond(lanes, ray, self.limits[ray]);
+                }
+            }
+            for ray in searched {
+                let child = self.stacks.take(ray);
+                self.go_on(ray, if self.limits[ray] == f32::NEG_INFINITY { END } else { child });
+            }
+        }
     }
 
-    /// Searches a leaf.
+    /// Passes a node; gives where the ray goes next.
     #[inline(always)]
-    fn search(&mut self, lanes: L) {
-        let end = self.search.leaf(lanes, self.child & !LEAF, &mut Uncounted);
-        if end == f32::NEG_INFINITY {
-            self.child = END;
-            return;
-        }
-        if S::SHORTENS && end < self.limit {
-            self.limit = end;
-            lanes.forget_beyond(&mut self.stack, end);
-        }
-        self.child = self.stack.pop();
+    fn step<L: Lanes, Q: Question>(&mut self, lanes: L, nodes: &[WideNode], ray: usize) -> u32 {
+        let node = &nodes[self.children[ray] as usize];
+        let boxes = self.boxes.boxes(lanes, ray);
+        let met = boxes.meet(lanes, node, self.limits[ray]);
+        let order = *boxes.sides().octant.of(&node.orders);
+        self.stacks.push_met(lanes, ray, met, &node.children, order, Q::SHORTENS);
+        self.stacks.take(ray)
+    }
+
+    /// Notes where a ray goes next.
+    #[inline(always)]
+    fn go_on(&mut self, ray: usize, child: u32) {
+        self.children[ray] = child;
+        self.at_nodes.add(ray, child & LEAF == 0);
+        self.at_leaves.add(ray, (child & LEAF != 0) & (child != END));
     }
 }

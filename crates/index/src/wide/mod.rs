@@ -13,6 +13,8 @@ pub(crate) mod batch;
 pub(crate) mod collapse;
 mod plans;
 pub(crate) mod ray;
+pub(crate) mod rays;
+pub(crate) mod set;
 mod validate;
 pub(crate) mod walk;
 

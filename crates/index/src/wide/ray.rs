@@ -7,14 +7,14 @@ use heliostat_geometry::{Aabb, Interval, Ray};
 /// Where all boxes are, and how fine they are.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Room {
-    low: Vec3A,
-    high: Vec3A,
+    pub(super) low: Vec3A,
+    pub(super) high: Vec3A,
     /// How far beside its place something may be met even where a ray starts.
     pub(super) slack: f32,
     /// The slack, and the rounding of coordinates in here.
-    padding: Vec3A,
+    pub(super) padding: Vec3A,
     /// A size that few boxes of leaves are below.
-    detail: f32,
+    pub(super) detail: f32,
 }
 
 impl Room {

@@ -76,7 +76,7 @@ pub(crate) fn walk<L: Lanes>(
         return;
     }
     let box_ray = BoxRay::new(ray, &wide.room);
-    let sides = Sides::new(&box_ray);
+    let sides = Sides::of(box_ray.octant());
     if box_ray.blurs {
         let boxes = FineBoxes::new(lanes, sides, &box_ray, wide.room.slack);
         walk_boxes(lanes, &wide.nodes, &boxes, limit, search, counter);
@@ -131,9 +131,9 @@ pub(super) struct Sides {
 }
 
 impl Sides {
+    /// Those of an octant: bit a is set where rays run downward along axis a.
     #[inline(always)]
-    pub(super) fn new(ray: &BoxRay) -> Self {
-        let octant = ray.octant();
+    pub(super) const fn of(octant: usize) -> Self {
         Self {
             near: [Pick::new(octant), Pick::new(octant >> 1), Pick::new(octant >> 2)],
             far: [Pick::new(!octant), Pick::new(!octant >> 1), Pick::new(!octant >> 2)],
@@ -152,16 +152,16 @@ pub(super) trait Meet<L: Lanes> {
 
 /// One padding for all boxes.
 pub(super) struct Boxes<L: Lanes> {
-    sides: Sides,
-    inverse: [L::F; 3],
-    near_offset: [L::F; 3],
-    far_offset: [L::F; 3],
-    start: L::F,
+    pub(super) sides: Sides,
+    pub(super) inverse: [L::F; 3],
+    pub(super) near_offset: [L::F; 3],
+    pub(super) far_offset: [L::F; 3],
+    pub(super) start: L::F,
 }
 
 impl<L: Lanes> Boxes<L> {
     #[inline(always)]
-    pub(super) fn new(lanes: L, sides: Sides, ray: &BoxRay) -> Self {
+    fn new(lanes: L, sides: Sides, ray: &BoxRay) -> Self {
         Self {
             sides,
             inverse: splat(lanes, ray.inverse),
@@ -261,6 +261,6 @@ impl<L: Lanes> Meet<L> for FineBoxes<L> {
 
 /// The coordinates, each for all lanes.
 #[inline(always)]
-fn splat<L: Lanes>(lanes: L, v: Vec3A) -> [L::F; 3] {
+pub(super) fn splat<L: Lanes>(lanes: L, v: Vec3A) -> [L::F; 3] {
     [lanes.splat(v.x), lanes.splat(v.y), lanes.splat(v.z)]
 }

@@ -85,21 +85,27 @@ impl Lanes for Avx2 {
         }
         // It is known sooner by its lane.
         let first = row.ordered[row.hits.ilog2() as usize % LANES];
-        row.put(stack, forgets);
+        row.push(stack, forgets);
+        stack.take();
         first
     }
 
     #[inline(always)]
-    fn enter_evenly(
+    fn push_met(
         self,
-        stack: &mut Self::Stack<'_>,
+        stack: &mut Stack<'_, false>,
         near: __m256,
         far: __m256,
         children: &[u32; LANES],
         order: u32,
         forgets: bool,
-    ) -> u32 {
-        self.row(near, far, children, order).put(stack, forgets)
+    ) {
+        self.row(near, far, children, order).push(stack, forgets);
+    }
+
+    #[inline(always)]
+    fn forget_of_many(self, stack: &mut Stack<'_, false>, limit: f32) {
+        self.forget_beyond(stack, limit);
     }
 
     #[inline(always)]
@@ -168,9 +174,9 @@ struct Hits {
 }
 
 impl Hits {
-    /// Pushes all but the one to be entered first, which comes back; where there is none, what was on top.
+    /// Pushes them.
     #[inline(always)]
-    fn put(self, stack: &mut Stack<'_, false>, forgets: bool) -> u32 {
+    fn push(self, stack: &mut Stack<'_, false>, forgets: bool) {
         let count = self.hits.count_ones() as usize;
         let (to_children, to_nears) = stack.row(count);
         // SAFETY: AVX2 made the row, and there is room for it.
@@ -181,6 +187,5 @@ impl Hits {
             }
         }
         stack.grow(count);
-        stack.take()
     }
 }

@@ -1,7 +1,7 @@
 //! The lanes on AVX-512: sets of lanes are masks, and packed by an instruction.
 
-use super::{TURNS, extremes};
-use crate::simd::{LANES, Lanes, Pending, Row, Stack};
+use super::{TURNS, extremes, run_avx2_apart};
+use crate::simd::{LANES, Lanes, Pending, Row, Stack, Task};
 use glam::Vec3A;
 use std::arch::x86_64::*;
 
@@ -13,6 +13,12 @@ impl Lanes for Avx512 {
     type Stack<'r> = Stack<'r, true>;
 
     on_256_bits!();
+
+    #[inline(always)]
+    fn run_loops<T: Task>(self, loops: T) -> T::Output {
+        // SAFETY: what has AVX-512 has AVX2.
+        unsafe { run_avx2_apart(loops) }
+    }
 
     #[inline(always)]
     fn lt(self, a: __m256, b: __m256) -> u32 {
@@ -59,7 +65,7 @@ impl Lanes for Avx512 {
         order: u32,
         forgets: bool,
     ) -> u32 {
-        let (hits, nears, children) = self.in_order(near, far, children, order);
+        let (hits, nears, children) = self.in_order(FROM_FIRST, near, far, children, order);
         if hits == 0 {
             return stack.pop();
         }
@@ -72,23 +78,35 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
-    fn enter_evenly(
+    fn push_met(
         self,
-        stack: &mut Self::Stack<'_>,
+        stack: &mut Stack<'_, false>,
         near: __m256,
         far: __m256,
         children: &[u32; LANES],
         order: u32,
         forgets: bool,
-    ) -> u32 {
-        let (hits, nears, children) = self.in_order(near, far, children, order);
-        // What is on top comes first where there are no hits.
-        // SAFETY: see `splat`.
-        let children =
-            unsafe { _mm256_mask_compress_epi32(_mm256_set1_epi32(stack.top() as i32), hits, children) };
+    ) {
+        let (hits, nears, children) = self.in_order(FROM_LAST, near, far, children, order);
         self.push_row(stack, hits, children, if forgets { Some(nears) } else { None });
-        stack.take();
-        self.first(children)
+    }
+
+    #[inline(always)]
+    fn forget_of_many(self, stack: &mut Stack<'_, false>, limit: f32) {
+        let count = stack.len();
+        if count > LANES {
+            stack.forget_beyond(limit);
+            return;
+        }
+        let (children, nears) = stack.lowest_row();
+        // SAFETY: see `splat`; the lowest row is written, if only with nothing.
+        unsafe {
+            let there = _bzhi_u32(0xFF, count as u32) as u8;
+            let (children, nears) = (_mm256_loadu_si256(children.cast()), _mm256_loadu_ps(nears));
+            let kept = there & _mm256_cmp_ps_mask::<_CMP_LE_OQ>(nears, _mm256_set1_ps(limit));
+            stack.clear();
+            self.push_row(stack, kept, children, Some(nears));
+        }
     }
 
     #[inline(always)]
@@ -105,17 +123,17 @@ impl Lanes for Avx512 {
             let (children, nears) = (_mm256_load_si256(children.cast()), _mm256_load_ps(nears));
             let kept = there & _mm256_cmp_ps_mask::<_CMP_LE_OQ>(nears, _mm256_set1_ps(limit));
             stack.clear();
-            let children = _mm256_maskz_compress_epi32(kept, children);
-            self.push_row(stack, kept, children, Some(nears));
+            self.push(stack, kept, _mm256_maskz_compress_epi32(kept, children), Some(nears));
         }
     }
 }
 
 impl Avx512 {
-    /// The children in the order in which the ray meets them: those that are hit, where, and what they are.
+    /// The children in an order of those in which a ray may meet them: which are hit, where, and what they are.
     #[inline(always)]
     fn in_order(
         self,
+        Shifts(shifts): Shifts,
         near: __m256,
         far: __m256,
         children: &[u32; LANES],
@@ -123,7 +141,7 @@ impl Avx512 {
     ) -> (__mmask8, __m256, __m256i) {
         // SAFETY: see `splat`.
         unsafe {
-            let shifts = _mm256_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21);
+            let shifts = _mm256_loadu_si256(shifts.as_ptr().cast());
             let lanes = _mm256_srlv_epi32(_mm256_set1_epi32(order as i32), shifts);
             let near = _mm256_permutexvar_ps(lanes, near);
             let far = _mm256_permutexvar_ps(lanes, far);
@@ -148,19 +166,17 @@ impl Avx512 {
         stack.grow(count as usize);
     }
 
-    /// [`Avx512::push`] for many rays in turn: stores that leave lanes out hold up the loads of other rays behind them.
+    /// Pushes those of a row that are in a set, the last on top. The whole row is stored, what is too much on free places: a store
+    /// that leaves lanes out holds up the loads of other rays behind it.
     #[inline(always)]
-    fn push_row(self, stack: &mut Stack<'_, true>, hits: __mmask8, children: __m256i, nears: Option<__m256>) {
-        let count = hits.count_ones() as usize;
-        // The whole row is stored, its end turned to the old top; what lies before its start is free.
-        let (to_children, to_nears) = stack.row(LANES);
+    fn push_row(self, stack: &mut Stack<'_, false>, set: __mmask8, children: __m256i, nears: Option<__m256>) {
+        let count = set.count_ones() as usize;
+        let (to_children, to_nears) = stack.row(count);
         // SAFETY: see `splat`; there is room for a row.
         unsafe {
-            let turn = _mm256_loadu_si256(COUNT.as_ptr().add(count).cast());
-            _mm256_storeu_si256(to_children.cast(), _mm256_permutevar8x32_epi32(children, turn));
+            _mm256_storeu_si256(to_children.cast(), _mm256_maskz_compress_epi32(set, children));
             if let Some(nears) = nears {
-                let nears = _mm256_maskz_compress_ps(hits, nears);
-                _mm256_storeu_ps(to_nears, _mm256_permutevar8x32_ps(nears, turn));
+                _mm256_storeu_ps(to_nears, _mm256_maskz_compress_ps(set, nears));
             }
         }
         stack.grow(count);
@@ -174,5 +190,9 @@ impl Avx512 {
     }
 }
 
-/// The numbers of lanes, once more behind the last.
-static COUNT: [i32; 2 * LANES] = [0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7];
+/// By how much to shift the order of children for each lane.
+#[derive(Clone, Copy)]
+struct Shifts([i32; LANES]);
+
+const FROM_FIRST: Shifts = Shifts([0, 3, 6, 9, 12, 15, 18, 21]);
+const FROM_LAST: Shifts = Shifts([21, 18, 15, 12, 9, 6, 3, 0]);

@@ -41,6 +41,16 @@ pub(super) unsafe fn run_avx512<T: Task>(task: T) -> T::Output {
     task.run(Avx512(()))
 }
 
+/// [`run_avx2`], never as a part of code for AVX-512.
+///
+/// # Safety
+/// [`has_avx2`] must hold.
+#[inline(never)]
+#[target_feature(enable = "avx2,fma,popcnt")]
+unsafe fn run_avx2_apart<T: Task>(task: T) -> T::Output {
+    task.run(Avx2(()))
+}
+
 /// For each axis, the lanes in cyclic order, this axis last.
 static TURNS: [Turn; 3] = [Turn([1, 2, 0, 3]), Turn([2, 0, 1, 3]), Turn([0, 1, 2, 3])];
 
@@ -119,6 +129,12 @@ macro_rules! on_256_bits {
         fn max(self, a: __m256, b: __m256) -> __m256 {
             // SAFETY: see `splat`.
             unsafe { _mm256_max_ps(a, b) }
+        }
+
+        #[inline(always)]
+        fn signed_by(self, a: __m256, b: __m256) -> __m256 {
+            // SAFETY: see `splat`.
+            unsafe { _mm256_xor_ps(a, _mm256_and_ps(b, _mm256_set1_ps(-0.0))) }
         }
 
         #[inline(always)]
