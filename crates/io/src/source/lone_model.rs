@@ -8,6 +8,7 @@ use crate::gltf::{Contents, GltfModel, Moment};
 use crate::model::{FITTED_CAMERA, complete_gltf, exposure_of, has_glass, scene_of};
 use crate::obj::ObjModel;
 use crate::scene_file::{Assets, Built, SceneFile, Trouble};
+use heliostat_scene::light::LightKind;
 use heliostat_scene::settings::IntegratorKind;
 use heliostat_scene::{RenderSettings, Scene};
 use std::path::Path;
@@ -84,7 +85,7 @@ impl LoneModel {
         let settings = file.render.settings(0, IntegratorKind::Whitted)?;
         let aspect = settings.width as f32 / settings.height as f32;
         let moment = Moment { seconds, shutter, aspect, variant: None };
-        let (scene, warnings, exposure) = self.scene(moment).map_err(Trouble::Elsewhere)?;
+        let (mut scene, warnings, exposure) = self.scene(moment).map_err(Trouble::Elsewhere)?;
         let names = || scene.cameras.iter().map(|camera| camera.name.as_str());
         let camera = match &file.render.camera {
             None => 0,
@@ -96,6 +97,10 @@ impl LoneModel {
         let transparent_shadows = file.render.transparent_shadows.unwrap_or_else(|| has_glass(&scene));
         let integrator =
             if file.render.integrator.is_some() { settings.integrator } else { scene.natural_integrator() };
+        // What surfaces and sky send on stands for ambient light where paths follow it.
+        if matches!(integrator, IntegratorKind::Direct | IntegratorKind::PathSimple | IntegratorKind::Path) {
+            scene.lights.retain(|light| light.kind != LightKind::Ambient);
+        }
         let settings = RenderSettings { camera, transparent_shadows, integrator, ..settings };
         Ok((Built { settings, scene, warnings }, exposure))
     }

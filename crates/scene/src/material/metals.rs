@@ -7,7 +7,7 @@ use crate::color::Rgb;
 ///
 /// # Source
 /// <https://refractiveindex.info>, as collected in <https://chris.hindefjord.se/resources/rgb-ior-metals>; chromium as in the
-/// material standard of LabPBR.
+/// material standard of `LabPBR`.
 const METALS: [(&str, Rgb, Rgb); 10] = [
     ("aluminium", Rgb::new(1.3456, 0.96521, 0.61722), Rgb::new(7.4746, 6.3995, 5.3031)),
     ("brass", Rgb::new(0.444, 0.527, 1.094), Rgb::new(3.695, 2.765, 1.829)),

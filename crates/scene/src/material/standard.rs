@@ -6,6 +6,9 @@ use super::phong::{FresnelMode, Phong};
 use crate::color::Rgb;
 use crate::ids::TextureId;
 
+/// The sharpest highlight of one of the report's surfaces that stands for another; a mirror beyond it.
+const MOST_SHINE: f32 = 20_000.0;
+
 /// A measured metal: its complex index of refraction `n + ik` at the wavelengths of red, green and blue.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Conductor {
@@ -201,7 +204,7 @@ impl Standard {
             (self.metalness.factor, (1.0 - self.metalness.factor) * self.transmission.factor);
         let scaled = |share: f32| ColorInput { factor: share * self.base_color.factor, ..self.base_color };
         // The sharper the highlight, the more of it is a mirror.
-        let alpha = (self.roughness.factor * self.roughness.factor).max(1e-2);
+        let alpha = self.roughness.factor * self.roughness.factor;
         let mirror = (1.0 - self.roughness.factor).powi(4);
         let dielectric = ((self.ior - 1.0) / (self.ior + 1.0)).powi(2) * (1.0 - metal);
         let highlight = metal * self.base_color.factor + dielectric * self.specular_color.factor;
@@ -210,7 +213,7 @@ impl Standard {
             diffuse: scaled((1.0 - metal) * (1.0 - glass)),
             specular: ColorInput::constant((1.0 - mirror) * highlight),
             // Blinn's exponent of the same width: Walter et al., "Microfacet Models for Refraction", 2007.
-            shininess: FloatInput::constant(2.0 / (alpha * alpha) - 2.0),
+            shininess: FloatInput::constant((2.0 / (alpha * alpha) - 2.0).min(MOST_SHINE)),
             emission: self.emission,
             mirror: scaled(metal * mirror),
             transparency: scaled(glass),

@@ -109,7 +109,8 @@ fn cases() -> Vec<(String, StandardBsdf, f32)> {
     let mut cases = Vec::new();
     // Facets hardly bend light there: the lobe is too narrow for the nodes of the integral.
     for (name, change) in LOSSLESS.iter().filter(|(name, _)| *name != "glass, ior 1.05") {
-        for (roughness, cos) in [(0.4, 0.9), (0.4, 0.2), (1.0, 0.9), (1.0, 0.2)] {
+        for (roughness, cos) in [(0.4, 0.9), (0.4, 0.2), (1.0, 0.9), (1.0, 0.2)].into_iter().skip(fewer(0, 3))
+        {
             let point = rough(*change, roughness);
             let is_body = point.transmission > 0.0 && !point.thin_walled;
             for is_outside in [true, false].into_iter().filter(|outside| *outside || is_body) {

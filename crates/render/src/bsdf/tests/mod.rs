@@ -11,6 +11,11 @@ use glam::{Vec2, Vec3};
 use heliostat_scene::Rgb;
 use std::f32::consts::TAU;
 
+/// A count for a deep run (`HELIOSTAT_DEEP`), or for a short one.
+fn fewer(deep: usize, short: usize) -> usize {
+    if std::env::var_os("HELIOSTAT_DEEP").is_some() { deep } else { short }
+}
+
 /// A white surface that absorbs nothing: matte under a boundary of glass.
 fn white() -> StandardPoint {
     StandardPoint {
