@@ -201,7 +201,7 @@ impl Standard {
             (self.metalness.factor, (1.0 - self.metalness.factor) * self.transmission.factor);
         let scaled = |share: f32| ColorInput { factor: share * self.base_color.factor, ..self.base_color };
         // The sharper the highlight, the more of it is a mirror.
-        let alpha = (self.roughness.factor * self.roughness.factor).max(1e-2);
+        let alpha = (self.roughness.factor * self.roughness.factor).max(0.01);
         let mirror = (1.0 - self.roughness.factor).powi(4);
         let dielectric = ((self.ior - 1.0) / (self.ior + 1.0)).powi(2) * (1.0 - metal);
         let highlight = metal * self.base_color.factor + dielectric * self.specular_color.factor;
