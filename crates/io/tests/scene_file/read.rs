@@ -10,6 +10,7 @@ use heliostat_scene::camera::Projection;
 use heliostat_scene::light::LightKind;
 use heliostat_scene::settings::{DepthLimits, Filter, IntegratorKind, Layers, PixelRect};
 use heliostat_scene::{RenderSettings, Scene};
+use std::collections::BTreeMap;
 
 fn scene(text: &str) -> Scene {
     shot(text).unwrap_or_else(|e| panic!("{e}\n{text}")).scene
@@ -171,8 +172,8 @@ fn settings_survive_being_written_and_read() {
     };
     for settings in [settings, RenderSettings { camera: 1, ..RenderSettings::default() }] {
         let table = RenderTable::from_settings(&settings, Some("b"));
-        let text = toml::to_string(&table).unwrap();
-        let whole = format!("camera = [{{ name = 'a' }}, {{ name = 'b' }}]\n[render]\n{text}");
+        let text = toml::to_string(&BTreeMap::from([("render", table)])).unwrap();
+        let whole = format!("camera = [{{ name = 'a' }}, {{ name = 'b' }}]\n{text}");
         assert_eq!(shot(&whole).unwrap().settings, settings, "{text}");
     }
 }

@@ -65,6 +65,10 @@ impl BsdfSample {
 }
 
 /// The closed list of surfaces at a point.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "it is worked out where it stays; a box would cost more than its size"
+)]
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Bsdf {
     /// The report's surface.

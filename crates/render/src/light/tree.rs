@@ -197,9 +197,9 @@ mod tests {
             Cluster {
                 bounds: Aabb { min: p, max: p + size },
                 intensity: 0.01 + draws.next_1d(),
-                normals: Cone { axis, angle: if i % 3 == 0 { PI } else { 0.0 } },
+                normals: Cone { axis, angle: if i.is_multiple_of(3) { PI } else { 0.0 } },
                 spread: FRAC_PI_2,
-                two_sided: i % 5 == 0,
+                two_sided: i.is_multiple_of(5),
             }
         };
         (0..count).map(light).collect()
