@@ -82,7 +82,8 @@
 //! - **Nothing is lost.** A box ends a search, but never rejects a hit for lying an ulp outside; distances to its
 //!   sides are grown by the rounding error of a ray ([`heliostat_geometry::error_bound::cell_padding`]), so a
 //!   ray along a split plane sees both sides.
-//! - **Every back end finds the same**, to the bit, and so does brute force.
+//! - **Every back end finds the same**, to the bit, and so does brute force: for coordinates up to 10¹² and triangles of 10⁻¹¹ and
+//!   more. Beyond, products of three lengths leave the range of `f32`, and hits may be lost.
 //! - **Ties go to the lower primitive id**, in every structure: the answer does not depend on the tree.
 //! - **Building ends.** Depth, references and time are bounded for any input; see [`BuildParams`].
 //!

@@ -30,18 +30,22 @@
 //! thin_film_ior = 1.3
 //! thin_film_thickness = 400       # nanometres
 //! emission = 0                    # radiance of its own
-//! # conductor = { n = [0.14, 0.37, 1.44], k = [3.98, 2.39, 1.60] }  # a measured metal, in place of base_color
+//! # conductor = "gold"            # a measured metal, in place of base_color; or its numbers:
+//! # conductor = { n = [0.14, 0.37, 1.44], k = [3.98, 2.39, 1.60] }
 //! ```
 
 use super::material::{FindTexture, TextureUse, color_input, float_input};
 use super::number::{AtLeastOne, Fraction, NonNegative, Number, Positive};
 use super::texturable::Texturable;
 use super::value::{Color, Splat};
-use crate::document::Fault;
+use crate::document::{Fault, Placed, Span};
 use glam::Vec3;
 use heliostat_scene::material::{Conductor, FloatInput, Standard, ThinFilm};
 use schemars::JsonSchema;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Deserializer, Error, MapAccess, Visitor};
 use serde::{Deserialize, Serialize};
+use std::fmt;
 
 /// A physically based surface: metal, plastic, glass, cloth, under coat and sheen.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -53,8 +57,9 @@ pub struct StandardTable {
     pub diffuse_roughness: Option<Texturable<Fraction>>,
     /// Share of metal; 0 if left out.
     pub metalness: Option<Texturable<Fraction>>,
-    /// A measured metal, in place of `base_color`.
-    pub conductor: Option<ConductorTable>,
+    /// A measured metal by its name or its numbers, in place of `base_color`: aluminium, brass, chromium, copper, gold, iron,
+    /// mercury, platinum, silver or titanium.
+    pub conductor: Option<Placed<Metal>>,
     /// Roughness of reflection and refraction, 0 is a mirror; 0.3 if left out.
     pub roughness: Option<Texturable<Fraction>>,
     /// Weight of the reflection of what is no metal; 1 if left out.
@@ -99,6 +104,55 @@ pub struct StandardTable {
     pub emission: Option<Texturable<Color>>,
 }
 
+/// A measured metal.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Metal {
+    /// By its name.
+    Name(String),
+    /// By its numbers.
+    Numbers(ConductorTable),
+}
+
+impl<'de> Deserialize<'de> for Metal {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(MetalVisitor)
+    }
+}
+
+struct MetalVisitor;
+
+impl<'de> Visitor<'de> for MetalVisitor {
+    type Value = Metal;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the name of a metal or { n = ..., k = ... }")
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<Metal, E> {
+        Ok(Metal::Name(name.to_owned()))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, entries: A) -> Result<Metal, A::Error> {
+        ConductorTable::deserialize(MapAccessDeserializer::new(entries)).map(Metal::Numbers)
+    }
+}
+
+impl Metal {
+    /// The metal of the scene; `place` is where it is named.
+    fn build(&self, place: Option<Span>) -> Result<Conductor, Fault> {
+        match self {
+            Self::Name(name) => Conductor::named(name).ok_or_else(|| {
+                Fault::unknown("metal", name, Conductor::names().collect::<Vec<_>>()).or_at(place)
+            }),
+            Self::Numbers(numbers) => Ok(Conductor {
+                n: Vec3::from_array(numbers.n.values().map(Positive::f32)),
+                k: numbers.k.rgb(),
+            }),
+        }
+    }
+}
+
 /// The complex index of refraction of a metal at red, green and blue.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -135,6 +189,8 @@ impl StandardTable {
         };
         self.fill_colors(&mut standard, textures)?;
         self.fill_constants(&mut standard);
+        let metal = |metal: &Placed<Metal>| metal.build(metal.span());
+        standard.conductor = self.conductor.as_ref().map(metal).transpose()?;
         let thickness = &mut standard.thin_film.thickness;
         let given = self.thin_film_thickness.as_ref();
         *thickness = float_input(given, NonNegative::f32, *thickness, TextureUse::Data, textures)?;
@@ -157,10 +213,6 @@ impl StandardTable {
 
     /// What no texture varies.
     fn fill_constants(&self, standard: &mut Standard) {
-        standard.conductor = self.conductor.as_ref().map(|metal| Conductor {
-            n: Vec3::from_array(metal.n.values().map(Positive::f32)),
-            k: metal.k.rgb(),
-        });
         standard.ior = self.ior.map_or(standard.ior, Positive::f32);
         let turn = self.anisotropy_rotation.map(|turn| turn.get().to_radians() as f32);
         standard.anisotropy_rotation = turn.unwrap_or(standard.anisotropy_rotation);

@@ -423,3 +423,20 @@ fn focus_behind_the_camera_is_refused() {
         "choose a point that the camera sees, or `distance`",
     );
 }
+
+#[test]
+fn physical_surfaces_say_what_they_do_not_take() {
+    let material = |rest: &str| with_camera(&format!("[[material]]\nname = \"a\"\n{rest}"));
+    refused(&material("standard.conductor = «\"golt\"»\n"), "unknown metal `golt`", "did you mean `gold`?");
+    refused(
+        &material("phong = {}\nstandard = «{}»\n"),
+        "`phong` and `standard` exclude each other",
+        "remove one of them",
+    );
+    refused(
+        "[camera]\n[[texture]]\nname = \"t\"\nchecker = { even = 0, odd = 1 }\n\
+         [[material]]\nname = \"a\"\nstandard.base_color = { texture = \"t\", channel = «\"r\"» }\n",
+        "a colour takes all channels of its texture",
+        "remove `channel`",
+    );
+}
