@@ -1,16 +1,17 @@
-"""Whether Heliostat and Mitsuba 3 agree: means of every channel, and a Z-test in every pixel.
+"""Whether Heliostat and Mitsuba 3 agree: means of every channel, and a Z-test in every pixel; and which has the less noise for its time.
 
-    python agree.py HELIOSTAT [--scene NAME] [--runs 16] [--samples 64] [--size 128] [--mesh OBJ --image HDR] [--out FOLDER]
+    python agree.py HELIOSTAT [--scene NAME] [--runs 16] [--samples 64] [--size 128] [--mesh OBJ] [--out FOLDER]
 
 Both render each scene so many times with seeds of their own. The mean over the runs has a variance that the runs tell
 themselves; pixels agree where Welch's test says so at 1 % for the whole picture (Sidak's correction), as Mitsuba's own tests
-ask. Needs `pip install mitsuba numpy scipy`, and for variant llvm_ad_rgb an LLVM (`DRJIT_LIBLLVM_PATH`).
+ask. Efficiency is one over variance times seconds of the wall clock, a run of ours being a whole process. Needs `pip install mitsuba numpy scipy`, and for variant llvm_ad_rgb an LLVM (`DRJIT_LIBLLVM_PATH`).
 """
 
 import argparse
 import pathlib
 import subprocess
 import sys
+import time
 
 import mitsuba as mi
 
@@ -21,7 +22,6 @@ ARGS.add_argument("--runs", type=int, default=16)
 ARGS.add_argument("--samples", type=int, default=64)
 ARGS.add_argument("--size", type=int, default=128)
 ARGS.add_argument("--mesh")
-ARGS.add_argument("--image")
 ARGS.add_argument("--integrator", default="path")
 ARGS.add_argument("--variant", default="llvm_ad_rgb")
 ARGS.add_argument("--out", default="out/agree")
@@ -31,7 +31,7 @@ mi.set_variant(args.variant)
 import numpy as np
 from scipy import stats
 
-from scenes import named
+from scenes import named, sky_rows
 from to_heliostat import to_toml
 from to_mitsuba import to_mitsuba
 
@@ -40,25 +40,40 @@ out.mkdir(parents=True, exist_ok=True)
 size = [args.size, args.size]
 
 
+def sky_file():
+    """The sky as a file."""
+    file = out / "sky.exr"
+    mi.Bitmap(np.array(list(sky_rows(1024)), dtype=np.float32)).write(str(file))
+    return str(file.resolve())
+
+
+def timed(work):
+    """What work gives, and the seconds it took."""
+    start = time.perf_counter()
+    return work(), time.perf_counter() - start
+
+
 def ours(name, scene):
-    """The pictures of all runs."""
-    pictures = []
+    """The pictures of all runs, and the median of their seconds."""
+    pictures, seconds = [], []
     for seed in range(args.runs):
         file, picture = out / f"{name}.toml", out / f"{name}.exr"
         file.write_text(to_toml(scene, size, args.samples, seed, args.integrator))
         command = [args.heliostat, "render", str(file), "-o", str(picture), "--progress", "none"]
-        subprocess.run(command, check=True)
+        seconds.append(timed(lambda: subprocess.run(command, check=True, stdout=subprocess.DEVNULL))[1])
         pictures.append(np.array(mi.Bitmap(str(picture)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32)))
-    return np.array(pictures, dtype=np.float64)
+    return np.array(pictures, dtype=np.float64), np.median(seconds)
 
 
 def theirs(scene):
     """The same of Mitsuba."""
     integrator = {"type": "path", "max_depth": 65, "rr_depth": 8}
     world = to_mitsuba(scene, size, integrator)
-    return np.array(
-        [np.array(mi.render(world, spp=args.samples, seed=1000 + run)) for run in range(args.runs)], dtype=np.float64
-    )
+    render = lambda run: timed(lambda: np.array(mi.render(world, spp=args.samples, seed=1000 + run)))
+    # The first run compiles.
+    render(-1)
+    pictures, seconds = zip(*(render(run) for run in range(args.runs)))
+    return np.array(pictures, dtype=np.float64), np.median(seconds)
 
 
 def picture(name, values):
@@ -66,7 +81,11 @@ def picture(name, values):
 
 
 def report(name, a, b):
-    """One line; whether they agree."""
+    """One line; whether they agree. Each is pictures and seconds."""
+    (a, our_seconds), (b, their_seconds) = a, b
+    noise = lambda x: np.mean(x.var(axis=0, ddof=1))
+    relative = lambda x: np.mean(x.var(axis=0, ddof=1) / (x.mean(axis=0) ** 2 + 1e-2))
+    gain = their_seconds / our_seconds
     means = a.mean(axis=(0, 1, 2)) / b.mean(axis=(0, 1, 2)) - 1
     spread = lambda x: x.mean(axis=(1, 2)).std(axis=0, ddof=1) / np.sqrt(len(x)) / x.mean(axis=(0, 1, 2))
     p = np.nan_to_num(stats.ttest_ind(a, b, axis=0, equal_var=False).pvalue, nan=1.0)
@@ -77,13 +96,16 @@ def report(name, a, b):
     picture(f"{name}_p.png", np.minimum(p, 1))
     shown = " ".join(f"{100 * x:+.3f} %" for x in means)
     error = " ".join(f"{100 * x:.3f}" for x in np.hypot(spread(a), spread(b)))
-    print(f"{name}: means {shown} (deviation {error}); {100 * inside:.2f} % of pixels inside, {100 * plain:.2f} % uncorrected")
+    print(
+        f"{name}: means {shown} (deviation {error}); {100 * inside:.2f} % of pixels inside, {100 * plain:.2f} % uncorrected; "
+        f"{our_seconds:.2f} s to {their_seconds:.2f} s; efficiency {gain * noise(b) / noise(a):.2f}, by relative error {gain * relative(b) / relative(a):.2f}"
+    )
     return np.all(np.abs(means) < 0.005) and inside >= 0.995
 
 
 agree = [
     report(name, ours(name, scene), theirs(scene))
-    for name, scene in named(args.mesh, args.image).items()
+    for name, scene in named(args.mesh, args.mesh and sky_file()).items()
     if args.scene in name
 ]
 sys.exit(0 if all(agree) else 1)

@@ -4,7 +4,8 @@ A scene is a dictionary: a camera, materials by name, objects, an optional envir
 y up, colours linear Rec.709. Materials are of four kinds that every renderer has exactly:
 
     matte       albedo
-    metal       n, k, roughness (the width of the GGX distribution is its square)
+    metal       n, k, roughness (the width of the GGX distribution is its square; small, because not all renderers keep the
+                light that facets throw at each other)
     glass       ior, roughness
     light       radiance, one-sided, along the normal
 """
@@ -65,7 +66,7 @@ def glossy():
     return {
         "camera": ROOM_CAMERA,
         "materials": ROOM_MATERIALS
-        | {"gold": GOLD | {"roughness": 0.3}, "steel": GOLD | {"n": [2.9, 2.95, 2.6], "k": [3.1, 2.9, 2.8], "roughness": 0.15}},
+        | {"gold": GOLD | {"roughness": 0.2}, "steel": GOLD | {"n": [2.9, 2.95, 2.6], "k": [3.1, 2.9, 2.8], "roughness": 0.15}},
         "objects": room([0.8, 0.8])
         + [sphere("gold", 0.45, [-0.4, -0.55, -0.3]), box("steel", [0.5, 0.7, 0.5], [0.4, -0.65, 0.2], [0, 30, 0])],
     }
@@ -75,17 +76,36 @@ def glass():
     return {
         "camera": ROOM_CAMERA,
         "materials": ROOM_MATERIALS
-        | {"clear": {"kind": "glass", "ior": 1.5, "roughness": 0}, "frosted": {"kind": "glass", "ior": 1.5, "roughness": 0.3}},
+        | {"clear": {"kind": "glass", "ior": 1.5, "roughness": 0}, "frosted": {"kind": "glass", "ior": 1.5, "roughness": 0.2}},
         "objects": room([1.4, 1.4])
         + [sphere("clear", 0.4, [-0.4, -0.55, -0.2]), sphere("frosted", 0.35, [0.45, -0.6, 0.3])],
     }
+
+
+def sky(direction):
+    """Radiance of a smooth sky from a unit direction: a horizon, a zenith and a soft sun. Whatever a renderer takes for the place
+    of a pixel, half a pixel to the side is hardly another value."""
+    x, y, z = direction
+    sun = math.exp(30 * (x * 0.48 + y * 0.6 + z * 0.64 - 1))
+    height = 0.5 + 0.5 * y
+    return [0.3 + 0.1 * height + 12 * sun, 0.3 + 0.2 * height + 11 * sun, 0.3 + 0.4 * height + 9 * sun]
+
+
+def sky_rows(width):
+    """Rows of an equirectangular picture from the top; its middle is towards -z, and +x lies to the right of that."""
+    for row in range(width // 2):
+        theta = math.pi * (row + 0.5) / (width // 2)
+        columns = (2 * math.pi * ((column + 0.5) / width - 0.5) for column in range(width))
+        yield [
+            sky((math.sin(theta) * math.sin(phi), math.cos(theta), -math.sin(theta) * math.cos(phi))) for phi in columns
+        ]
 
 
 def environment(mesh, image):
     """A mesh of about unit size around the origin on a floor, under an environment map."""
     return {
         "camera": {"position": [1.2, 0.9, 2.6], "look_at": [0, -0.1, 0], "fov": 40},
-        "materials": {"floor": {"kind": "matte", "albedo": [0.4, 0.4, 0.4]}, "body": GOLD | {"roughness": 0.25}},
+        "materials": {"floor": {"kind": "matte", "albedo": [0.4, 0.4, 0.4]}, "body": GOLD | {"roughness": 0.2}},
         "objects": [
             rectangle("floor", [6, 6], [0, -1, 0], [-90, 0, 0]),
             {"mesh": mesh, "translate": [0, 0, 0], "rotate": (0, 0, 0), "material": "body"},
@@ -113,7 +133,7 @@ def times(a, b):
     ]
 
 
-def named(mesh, image):
-    """All scenes; `mesh` is an OBJ file and `image` an equirectangular HDR file for the last one."""
+def named(mesh=None, image=None):
+    """All scenes; `mesh` is an OBJ file and `image` the [sky](sky_rows) in a file, for the last one."""
     scenes = {"cornell": cornell(), "glossy": glossy(), "glass": glass()}
     return scenes | {"environment": environment(mesh, image)} if mesh and image else scenes

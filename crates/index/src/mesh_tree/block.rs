@@ -12,13 +12,29 @@ use heliostat_geometry::{Interval, Ray};
 
 /// Eight triangles.
 #[derive(Clone, Copy, Debug)]
-#[repr(C, align(64))]
+#[repr(C)]
 pub(super) struct Block {
     pub(super) rows: Rows,
+}
+
+/// What is known of a block; apart from it, because rows are whole cache lines and this would fill up another.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tag {
     /// The largest extent of a triangle along an axis.
     pub(super) extent: f32,
     /// A bit for each triangle with an area. Others are never met; so what the lanes are certain of among these is a hit.
     pub(super) present: u32,
+}
+
+impl Tag {
+    pub(super) fn of(block: &Block) -> Self {
+        let mut tag = Self { extent: 0.0, present: 0 };
+        for (lane, corners @ [a, b, c]) in (0..LANES).map(|lane| (lane, block.corners(lane))) {
+            tag.extent = tag.extent.max((a.max(b).max(c) - a.min(b).min(c)).max_element());
+            tag.present |= u32::from(!is_flat(corners)) << lane;
+        }
+        tag
+    }
 }
 
 /// For each axis a row of the corners a, of b and of c.
@@ -27,16 +43,14 @@ pub(super) type Rows = [[Row; 3]; 3];
 impl Block {
     /// Triangles side by side; in the place of one that is missing lies a point.
     pub(super) fn new(triangles: impl Iterator<Item = Option<[Vec3; 3]>>) -> Self {
-        let mut block = Self { rows: [[Row([0.0; LANES]); 3]; 3], extent: 0.0, present: 0 };
+        let mut block = Self { rows: [[Row([0.0; LANES]); 3]; 3] };
         for (lane, corners) in triangles.enumerate() {
-            let Some(corners @ [a, b, c]) = corners else { continue };
+            let Some(corners) = corners else { continue };
             for (axis, rows) in block.rows.iter_mut().enumerate() {
                 for (row, corner) in rows.iter_mut().zip(corners) {
                     row.0[lane] = corner[axis];
                 }
             }
-            block.extent = block.extent.max((a.max(b).max(c) - a.min(b).min(c)).max_element());
-            block.present |= u32::from(!is_flat(corners)) << lane;
         }
         block
     }
@@ -102,7 +116,7 @@ impl BlockRay {
     pub(super) fn meet<L: Lanes>(
         &self,
         lanes: L,
-        block: &Block,
+        (block, tag): (&Block, &Tag),
         Interval { min, max }: Interval,
     ) -> Option<Candidates<L::F>> {
         let (origin, slope) = (self.turned.origin(), self.turned.slope());
@@ -112,7 +126,7 @@ impl BlockRay {
             slope: [lanes.splat(slope.x), lanes.splat(slope.y)],
         };
         let seen = eye.see(lanes, &block.rows);
-        let inside = seen.inside(lanes) & block.present;
+        let inside = seen.inside(lanes) & tag.present;
         if inside == 0 {
             return None;
         }

@@ -102,14 +102,14 @@ impl<'t, A: Ask> Many<'t, A> {
         leaves: &mut PerRay<u32>,
     ) -> (Set, Set) {
         let (mut met, mut more) = (Set::EMPTY, Set::EMPTY);
-        let (eyes, blocks) = (&self.eyes, &self.tree.blocks[..]);
+        let (eyes, blocks, tags) = (&self.eyes, &self.tree.blocks[..], &self.tree.tags[..]);
         for ray in at_leaves {
             let (number, rest) = next_block(&mut leaves[ray]);
-            let block = &blocks[number as usize];
+            let (block, tag) = (&blocks[number as usize], &tags[number as usize]);
             let seen = eyes.eye(lanes, ray).see(lanes, &block.rows);
             // Mostly the triangle that the ray comes from; rays from outside have nothing behind them worth the look.
-            let behind = if rays.any_inside { seen.behind(lanes, block.extent, eyes.dir(ray)) } else { 0 };
-            let candidates = seen.inside(lanes) & block.present & !behind;
+            let behind = if rays.any_inside { seen.behind(lanes, tag.extent, eyes.dir(ray)) } else { 0 };
+            let candidates = seen.inside(lanes) & tag.present & !behind;
             (self.block[ray], self.met[ray]) = (number, candidates as u8);
             met.add(ray, candidates != 0);
             more.add(ray, rest != 0);

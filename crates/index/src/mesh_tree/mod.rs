@@ -16,7 +16,7 @@ use crate::bsp::{BspTree, BuildError, BuildParams, TreeStats};
 use crate::parallel;
 use crate::simd::{Backend, LANES};
 use crate::wide::walk::{Counter, TraversalCost, Uncounted};
-use block::Block;
+use block::{Block, Tag};
 use heliostat_geometry::triangle::{TriangleHit, TriangleRay, intersect};
 use heliostat_geometry::{Ray, TriMesh};
 use many::Ask;
@@ -66,6 +66,8 @@ pub struct MeshTree {
     tree: BspTree,
     /// The triangles of the references of the tree, group by group.
     blocks: Vec<Block>,
+    /// One for each block.
+    tags: Vec<Tag>,
     build_seconds: f64,
 }
 
@@ -83,7 +85,8 @@ impl MeshTree {
         let triangle = |group: &[u32], lane: usize| is_new(group, lane).then(|| mesh.corners(group[lane]));
         let block = |group: &[u32]| Block::new((0..LANES).map(|lane| triangle(group, lane)));
         let blocks = parallel::map_chunks(tree.leaf_refs(), LANES, block);
-        Ok(Self { tree, blocks, build_seconds: begin.elapsed().as_secs_f64() })
+        let tags = parallel::map_chunks(&blocks, 1, |block| Tag::of(&block[0]));
+        Ok(Self { tree, blocks, tags, build_seconds: begin.elapsed().as_secs_f64() })
     }
 
     /// The tree inside.
@@ -94,7 +97,7 @@ impl MeshTree {
     /// [`BspTree::stats`], with the triangles that were laid out: their bytes, and the time that took.
     pub fn stats(&self) -> TreeStats {
         let stats = self.tree.stats();
-        let bytes = stats.bytes + self.blocks.len() * size_of::<Block>();
+        let bytes = stats.bytes + self.blocks.len() * (size_of::<Block>() + size_of::<Tag>());
         TreeStats { bytes, build_seconds: self.build_seconds, ..stats }
     }
 

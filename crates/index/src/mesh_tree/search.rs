@@ -5,7 +5,7 @@
 //! once, at the end. Where it is not enough (at an edge, at the ends of the range, on coincident triangles), the exact test
 //! decides at once.
 
-use super::block::{Block, BlockRay};
+use super::block::{Block, BlockRay, Tag};
 use super::{MeshHit, MeshTree};
 use crate::simd::{LANES, Lanes};
 use crate::wide::walk::{Counter, Search};
@@ -48,9 +48,9 @@ pub(super) fn blocks_of(leaf: u32) -> (usize, usize) {
 impl MeshTree {
     /// The number of the first block of a leaf, and its blocks.
     #[inline(always)]
-    fn leaf(&self, leaf: u32) -> (usize, &[Block]) {
+    fn leaf(&self, leaf: u32) -> (usize, impl Iterator<Item = (&Block, &Tag)>) {
         let (first, count) = blocks_of(leaf);
-        (first, &self.blocks[first..][..count])
+        (first, self.blocks[first..][..count].iter().zip(&self.tags[first..][..count]))
     }
 }
 
@@ -100,7 +100,7 @@ impl Search for Nearest<'_> {
         counter.leaf(LANES * blocks_of(leaf).1);
         let start = greater(self.ray.range.min, 0.0);
         let (first, blocks) = self.tree.leaf(leaf);
-        for (i, block) in blocks.iter().enumerate() {
+        for (i, block) in blocks.enumerate() {
             let range = Interval { min: start, max: self.high };
             let Some(found) = self.block_ray.meet(lanes, block, range) else { continue };
             let (lows, highs) = (lanes.store(found.low), lanes.store(found.high));
@@ -146,7 +146,7 @@ impl Search for Any<'_> {
         counter.leaf(LANES * blocks_of(leaf).1);
         let range = Interval { min: greater(self.ray.range.min, 0.0), ..self.ray.range };
         let (first, blocks) = self.tree.leaf(leaf);
-        for (i, block) in blocks.iter().enumerate() {
+        for (i, block) in blocks.enumerate() {
             let Some(found) = self.block_ray.meet(lanes, block, range) else { continue };
             let mut doubtful = if found.certain == 0 { found.lanes } else { 0 };
             self.found = found.certain != 0;
@@ -186,7 +186,7 @@ impl<V: FnMut(MeshHit)> Search for Each<'_, V> {
         counter.leaf(LANES * blocks_of(leaf).1);
         let range = self.ray.range;
         let (first, blocks) = self.tree.leaf(leaf);
-        for (i, block) in blocks.iter().enumerate() {
+        for (i, block) in blocks.enumerate() {
             let Some(found) = self.block_ray.meet(lanes, block, range) else { continue };
             let mut candidates = found.lanes;
             while candidates != 0 {
