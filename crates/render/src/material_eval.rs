@@ -1,6 +1,5 @@
 //! Materials at a point: the textured description becomes a few numbers.
 
-#[allow(dead_code, reason = "integrators that scatter light are yet to call it")]
 mod standard;
 
 use crate::texture_eval::{self, TexturePoint, uv_step};

@@ -25,7 +25,6 @@ impl MaterialEval<'_> {
             anisotropy_direction: self.anisotropy_direction(standard),
             transmission: share(&standard.transmission),
             thin_walled: standard.thin_walled,
-            absorption: standard.absorption,
             dispersion: standard.dispersion.max(0.0),
             diffuse_transmission: share(&standard.diffuse_transmission),
             diffuse_transmission_color: color(&standard.diffuse_transmission_color),
@@ -37,7 +36,6 @@ impl MaterialEval<'_> {
             film: share(&film.weight),
             film_ior: film.ior.max(1.0),
             film_thickness: self.film_thickness(standard),
-            emission: self.color(&standard.emission),
         }
     }
 

@@ -66,7 +66,38 @@ pub(super) fn parameters_of(scene: &Scene, object: &Object, layers: &Layers) -> 
     let material = |id: &MaterialId| {
         let material = &scene.materials[id.index()];
         // A relief bends the normal along the tangents.
-        material.relief.is_some() || material.textures().into_iter().any(looks)
+        material.relief.is_some()
+            || material.surface.follows_tangents()
+            || material.textures().into_iter().any(looks)
     };
     if layers.uv || object.materials.iter().any(material) { Parameters::Used } else { Parameters::Unused }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use heliostat_geometry::Transform;
+    use heliostat_geometry::shape::{Shape, Sphere};
+    use heliostat_scene::Motion;
+    use heliostat_scene::material::{FloatInput, Standard, Surface};
+
+    #[test]
+    fn drawn_out_highlights_need_tangents() {
+        let parameters = |anisotropy: f32| {
+            let surface = Standard { anisotropy: FloatInput::constant(anisotropy), ..Standard::default() };
+            let surface = Surface::Standard(Box::new(surface));
+            let scene = Scene { materials: vec![Material::of("brushed", surface)], ..Scene::default() };
+            let object = Object {
+                name: "ball".to_owned(),
+                geometry: Geometry::Shape(Shape::Sphere(Sphere { radius: 1.0 })),
+                materials: vec![MaterialId(0)],
+                motion: Motion::still(Transform::IDENTITY),
+                visible: true,
+                casts_shadow: true,
+            };
+            parameters_of(&scene, &object, &Layers::default())
+        };
+        assert_eq!(parameters(0.0), Parameters::Unused);
+        assert_eq!(parameters(0.5), Parameters::Used);
+    }
 }

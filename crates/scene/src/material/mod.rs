@@ -89,6 +89,11 @@ impl Surface {
         }
     }
 
+    /// Whether highlights are drawn out along the tangents of the surface.
+    pub fn follows_tangents(&self) -> bool {
+        matches!(self, Self::Standard(standard) if standard.anisotropy.factor > 0.0)
+    }
+
     /// What bends the normal of its coat alone.
     pub fn coat_relief(&self) -> Option<Relief> {
         match self {

@@ -20,7 +20,6 @@ pub(crate) struct StandardPoint {
     pub(crate) anisotropy_direction: Vec2,
     pub(crate) transmission: f32,
     pub(crate) thin_walled: bool,
-    pub(crate) absorption: Rgb,
     pub(crate) dispersion: f32,
     pub(crate) diffuse_transmission: f32,
     pub(crate) diffuse_transmission_color: Rgb,
@@ -34,5 +33,4 @@ pub(crate) struct StandardPoint {
     pub(crate) film_ior: f32,
     /// Thickness of the film in nanometres.
     pub(crate) film_thickness: f32,
-    pub(crate) emission: Rgb,
 }

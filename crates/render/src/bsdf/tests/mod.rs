@@ -31,7 +31,6 @@ fn white() -> StandardPoint {
         anisotropy_direction: Vec2::X,
         transmission: 0.0,
         thin_walled: false,
-        absorption: Rgb::ZERO,
         dispersion: 0.0,
         diffuse_transmission: 0.0,
         diffuse_transmission_color: Rgb::ONE,
@@ -43,7 +42,6 @@ fn white() -> StandardPoint {
         film: 0.0,
         film_ior: 1.3,
         film_thickness: 0.0,
-        emission: Rgb::ZERO,
     }
 }
 
