@@ -8,10 +8,20 @@ use heliostat_scene::object::Geometry;
 use heliostat_scene::{Group, GroupId, Motion};
 use proptest::prelude::*;
 
+/// The edges of the cuboid that rays leave.
+const CUBOID: Vec3 = Vec3::new(1.0, 2.0, 0.5);
+
 /// Rays from around a scene towards its middle.
 fn rays() -> impl Strategy<Value = Vec<(Vec3, Vec3)>> {
     let vec3 = |reach: f32| prop::array::uniform3(-reach..reach).prop_map(Vec3::from_array);
     prop::collection::vec((vec3(14.0), vec3(6.0)), 40)
+}
+
+/// The distance of a point on the surface of the test's cuboid to the nearest edge.
+fn distance_to_edge(local: Vec3) -> f64 {
+    let mut to_faces = (CUBOID / 2.0 - local.abs()).abs().to_array();
+    to_faces.sort_by(f32::total_cmp);
+    to_faces[1].into()
 }
 
 /// Asserts that a scene of groups and the same scene flattened at a time answer rays alike.
@@ -84,7 +94,7 @@ proptest! {
         let mut stage = Stage::new();
         let geometry = match kind {
             0 => sphere(1.0),
-            1 => cuboid(1.0, 2.0, 0.5),
+            1 => cuboid(CUBOID.x, CUBOID.y, CUBOID.z),
             2 => stage.mesh(ball_mesh(1.0, 9, true)),
             _ => torus(1.0, 0.3),
         };
@@ -122,6 +132,10 @@ proptest! {
                 let dir = ng + 3.0 * tangent.normalize_or_zero();
                 if kind < 2 {
                     prop_assert_eq!(looker.world.closest_hit(&hit.hit.spawn(dir), 0.0), None);
+                    // Nearer to an edge than the error bound, the point that stands for the hit may lie beyond the other face.
+                    if kind == 1 && distance_to_edge(hit.local) * thinnest < 4.0 * f64::from(hit.hit.at.p_err.max_element()) {
+                        continue;
+                    }
                     let inside = looker.world.closest_hit(&hit.hit.spawn(-ng), 0.0);
                     prop_assert!(inside.is_some_and(|far| far.hit.at.ng.dot(ng) < 0.0), "no way out: {inside:?}");
                 } else if let Some(again) = looker.world.closest_hit(&hit.hit.spawn(dir), 0.0) {
