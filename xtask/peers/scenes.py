@@ -5,7 +5,8 @@ y up, colours linear Rec.709. Materials are of four kinds that every renderer ha
 
     matte       albedo
     metal       n, k, roughness (the width of the GGX distribution is its square; small, because not all renderers keep the
-                light that facets throw at each other)
+                light that facets throw at each other: at 0.3 Mitsuba loses 1 % of white metal seen from above, 9 % at a
+                cosine of 0.2)
     glass       ior, roughness
     light       radiance, one-sided, along the normal
 """
@@ -102,10 +103,11 @@ def sky_rows(width):
 
 
 def environment(mesh, image):
-    """A mesh of about unit size around the origin on a floor, under an environment map."""
+    """A mesh of about unit size around the origin on a floor, under an environment map. Its faces are flat, because renderers
+    differ in what they do where a shading normal looks away."""
     return {
         "camera": {"position": [1.2, 0.9, 2.6], "look_at": [0, -0.1, 0], "fov": 40},
-        "materials": {"floor": {"kind": "matte", "albedo": [0.4, 0.4, 0.4]}, "body": GOLD | {"roughness": 0.2}},
+        "materials": {"floor": {"kind": "matte", "albedo": [0.4, 0.4, 0.4]}, "body": GOLD | {"roughness": 0.1}},
         "objects": [
             rectangle("floor", [6, 6], [0, -1, 0], [-90, 0, 0]),
             {"mesh": mesh, "translate": [0, 0, 0], "rotate": (0, 0, 0), "material": "body"},

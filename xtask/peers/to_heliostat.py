@@ -47,7 +47,7 @@ def to_toml(scene, size, samples, seed, integrator):
     parts += [material(name, m) for name, m in scene["materials"].items() if name not in lights]
     for thing in scene["objects"]:
         if "mesh" in thing:
-            parts.append(f'[[mesh]]\nname = "mesh"\nfile = {json.dumps(thing["mesh"])}\n')
+            parts.append(f'[[mesh]]\nname = "mesh"\nfile = {json.dumps(thing["mesh"])}\nsmooth_angle = 0\n')
     for thing in scene["objects"]:
         if thing["material"] in lights:
             radiance = lights[thing["material"]]["radiance"]

@@ -28,7 +28,7 @@ def transform(thing, scale=(1, 1, 1)):
 
 def shape(thing):
     if "mesh" in thing:
-        return {"type": "obj", "filename": thing["mesh"], "to_world": transform(thing)}
+        return {"type": "obj", "filename": thing["mesh"], "face_normals": True, "to_world": transform(thing)}
     if thing["shape"] == "sphere":
         radius = thing["radius"]
         return {"type": "sphere", "to_world": transform(thing, (radius, radius, radius))}
