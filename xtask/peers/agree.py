@@ -4,7 +4,7 @@
 
 Both render each scene so many times with seeds of their own. The mean over the runs has a variance that the runs tell
 themselves; pixels agree where Welch's test says so at 1 % for the whole picture (Sidak's correction), as Mitsuba's own tests
-ask. Efficiency is one over variance times seconds of the wall clock, a run of ours being a whole process. Needs `pip install mitsuba numpy scipy`, and for variant llvm_ad_rgb an LLVM (`DRJIT_LIBLLVM_PATH`).
+ask, or where the means are within 0.05 %. Efficiency is one over variance times seconds of the wall clock, a run of ours being a whole process. Needs `pip install mitsuba numpy scipy`, and for variant llvm_ad_rgb an LLVM (`DRJIT_LIBLLVM_PATH`).
 """
 
 import argparse
@@ -59,7 +59,7 @@ def ours(name, scene):
     for seed in range(args.runs):
         file, picture = out / f"{name}.toml", out / f"{name}.exr"
         file.write_text(to_toml(scene, size, args.samples, seed, args.integrator))
-        command = [args.heliostat, "render", str(file), "-o", str(picture), "--progress", "none"]
+        command = [args.heliostat, "render", str(file), "-o", str(picture), "--exr-depth", "float", "--progress", "none"]
         seconds.append(timed(lambda: subprocess.run(command, check=True, stdout=subprocess.DEVNULL))[1])
         pictures.append(np.array(mi.Bitmap(str(picture)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32)))
     return np.array(pictures, dtype=np.float64), np.median(seconds)
@@ -89,6 +89,8 @@ def report(name, a, b):
     means = a.mean(axis=(0, 1, 2)) / b.mean(axis=(0, 1, 2)) - 1
     spread = lambda x: x.mean(axis=(1, 2)).std(axis=0, ddof=1) / np.sqrt(len(x)) / x.mean(axis=(0, 1, 2))
     p = np.nan_to_num(stats.ttest_ind(a, b, axis=0, equal_var=False).pvalue, nan=1.0)
+    # Where the sky is seen there is hardly a variance, and interpolation differs in the fourth digit.
+    p = np.where(np.abs(a.mean(axis=0) - b.mean(axis=0)) < 5e-4 * b.mean(axis=0), 1.0, p)
     inside = np.mean(p > 1 - (1 - 0.01) ** (1 / p[..., 0].size))
     plain = np.mean(p > 0.01)
     picture(f"{name}_ours.png", a.mean(axis=0))
