@@ -21,8 +21,8 @@ use heliostat_scene::settings::DepthLimits;
 use heliostat_scene::{RenderSettings, Rgb};
 use std::ops::ControlFlow;
 
-/// From so many scatterings on paths end by chance.
-const CERTAIN: u32 = 3;
+/// After so many scatterings paths end by chance. Sooner, glass and metal in a room got more noise for their time.
+const CERTAIN: u32 = 8;
 /// The largest probability with which such a path goes on.
 const MOST_CERTAIN: f32 = 0.95;
 /// The branch of the random numbers that decide about holes.
