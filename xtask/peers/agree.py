@@ -1,13 +1,15 @@
-"""Whether Heliostat and Mitsuba 3 agree: means of every channel, and a Z-test in every pixel; and which has the less noise for its time.
+"""Whether Heliostat agrees with Mitsuba 3 and Cycles: means of every channel, and a Z-test in every pixel; and which has the less noise for its time.
 
-    python agree.py HELIOSTAT [--scene NAME] [--runs 16] [--samples 64] [--size 128] [--mesh OBJ] [--out FOLDER]
+    python agree.py HELIOSTAT [--scene NAME] [--runs 16] [--samples 64] [--size 128] [--mesh OBJ] [--cycles PYTHON] [--out FOLDER]
 
-Both render each scene so many times with seeds of their own. The mean over the runs has a variance that the runs tell
+All render each scene so many times with seeds of their own. The mean over the runs has a variance that the runs tell
 themselves; pixels agree where Welch's test says so at 1 % for the whole picture (Sidak's correction), as Mitsuba's own tests
 ask, or where the means are within 0.05 %. Efficiency is one over variance times seconds of processor time, in turns, a run of ours being a whole process. Needs `pip install mitsuba numpy scipy`, and for variant llvm_ad_rgb an LLVM (`DRJIT_LIBLLVM_PATH`).
+Cycles joins where a Python is named that has it (`pip install bpy`; its NumPy is not that of the others).
 """
 
 import argparse
+import json
 import pathlib
 import resource
 import subprocess
@@ -23,6 +25,8 @@ ARGS.add_argument("--samples", type=int, default=64)
 ARGS.add_argument("--size", type=int, default=128)
 ARGS.add_argument("--mesh")
 ARGS.add_argument("--integrator", default="path")
+ARGS.add_argument("--threads", type=int, default=2)
+ARGS.add_argument("--cycles", help="a Python that has bpy")
 ARGS.add_argument("--variant", default="llvm_ad_rgb")
 ARGS.add_argument("--out", default="out/agree")
 args = ARGS.parse_args()
@@ -53,28 +57,54 @@ def seconds():
 
 
 def timed(work):
-    """What work gives, and the seconds it took."""
+    """The seconds that work took."""
     start = seconds()
-    return work(), seconds() - start
+    work()
+    return seconds() - start
+
+
+def read(file):
+    return np.array(mi.Bitmap(str(file)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32))
 
 
 def ours(name, scene):
-    """What renders the scene once with a seed."""
+    """What renders the scene once with a seed: gives the picture and the seconds it took."""
+    file, result = out / f"{name}.toml", out / f"{name}.exr"
+    command = [args.heliostat, "render", str(file), "-o", str(result), "--exr-depth", "float", "--progress", "none"]
+    command += ["--threads", str(args.threads)]
 
     def render(seed):
-        file, picture = out / f"{name}.toml", out / f"{name}.exr"
         file.write_text(to_toml(scene, size, args.samples, seed, args.integrator))
-        command = [args.heliostat, "render", str(file), "-o", str(picture), "--exr-depth", "float", "--progress", "none"]
-        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-        return np.array(mi.Bitmap(str(picture)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32))
+        took = timed(lambda: subprocess.run(command, check=True, stdout=subprocess.DEVNULL))
+        return read(result), took
 
     return render
 
 
-def theirs(scene):
-    """The same by Mitsuba."""
+def mitsuba(scene):
     world = to_mitsuba(scene, size, {"type": "path", "max_depth": 65, "rr_depth": 8})
-    return lambda seed: np.array(mi.render(world, spp=args.samples, seed=1000 + seed))
+
+    def render(seed):
+        pictures = []
+        took = timed(lambda: pictures.append(np.array(mi.render(world, spp=args.samples, seed=1000 + seed))))
+        return pictures[0], took
+
+    return render
+
+
+def cycles(name, scene):
+    """It tells its seconds itself, for rendering alone."""
+    file, result = out / f"{name}.json", (out / f"{name}_cycles.exr").resolve()
+    file.write_text(json.dumps(scene))
+    script = pathlib.Path(__file__).parent / "with_cycles.py"
+
+    def render(seed):
+        numbers = [args.size, args.samples, seed, args.threads]
+        command = [args.cycles, script, file, result, *numbers]
+        said = subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True).stdout
+        return read(result), float(said.split("seconds")[-1])
+
+    return render
 
 
 def in_turns(renderers):
@@ -82,7 +112,7 @@ def in_turns(renderers):
     for render in renderers:
         # The first run compiles.
         render(args.runs)
-    runs = [[timed(lambda: render(seed)) for render in renderers] for seed in range(args.runs)]
+    runs = [[render(seed) for render in renderers] for seed in range(args.runs)]
     pictures_and_seconds = (zip(*of_one) for of_one in zip(*runs))
     return [(np.array(pictures, dtype=np.float64), np.median(times)) for pictures, times in pictures_and_seconds]
 
@@ -104,9 +134,10 @@ def report(name, a, b):
     p = np.where(np.abs(a.mean(axis=0) - b.mean(axis=0)) < 5e-4 * b.mean(axis=0), 1.0, p)
     inside = np.mean(p > 1 - (1 - 0.01) ** (1 / p[..., 0].size))
     plain = np.mean(p > 0.01)
-    picture(f"{name}_ours.png", a.mean(axis=0))
-    picture(f"{name}_theirs.png", b.mean(axis=0))
-    picture(f"{name}_p.png", np.minimum(p, 1))
+    stem = name.lower().replace(", ", "_")
+    picture(f"{stem}_ours.png", a.mean(axis=0))
+    picture(f"{stem}_theirs.png", b.mean(axis=0))
+    picture(f"{stem}_p.png", np.minimum(p, 1))
     shown = " ".join(f"{100 * x:+.3f} %" for x in means)
     error = " ".join(f"{100 * x:.3f}" for x in np.hypot(spread(a), spread(b)))
     print(
@@ -116,9 +147,13 @@ def report(name, a, b):
     return np.all(np.abs(means) < 0.005) and inside >= 0.995
 
 
-agree = [
-    report(name, *in_turns([ours(name, scene), theirs(scene)]))
-    for name, scene in named(args.mesh, args.mesh and sky_file()).items()
-    if args.scene in name
-]
-sys.exit(0 if all(agree) else 1)
+def compare(name, scene):
+    """Whether all peers agree on a scene."""
+    peers = {"Mitsuba": mitsuba(scene)} | ({"Cycles": cycles(name, scene)} if args.cycles else {})
+    our_runs, *theirs = in_turns([ours(name, scene), *peers.values()])
+    return all([report(f"{name}, {peer}", our_runs, runs) for peer, runs in zip(peers, theirs)])
+
+
+mi.set_log_level(mi.LogLevel.Error)
+scenes = named(args.mesh, args.mesh and sky_file())
+sys.exit(0 if all([compare(name, scene) for name, scene in scenes.items() if args.scene in name]) else 1)
