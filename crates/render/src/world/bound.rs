@@ -1,7 +1,10 @@
 //! Whether a ray may meet a thing, before it is asked: by a sphere or a box around it.
 
+mod few;
+
 use super::blocker::Blocker;
 use super::solid::Solid;
+pub(super) use few::{FEW, FewBoxes};
 use glam::Vec3;
 use heliostat_geometry::error_bound::{cell_padding, gamma, inverse_direction};
 use heliostat_geometry::{Aabb, Ray};

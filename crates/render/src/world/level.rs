@@ -1,13 +1,10 @@
 //! The upper level: which of the things in the world a ray may meet.
 
-use super::bound::Bound;
+use super::bound::{Bound, FEW, FewBoxes};
 use super::solid::Solid;
 use crate::bits;
 use heliostat_geometry::{Aabb, Ray};
 use heliostat_index::{BspTree, BuildError, BuildParams, Found, RayIndex, TraversalCost};
-
-/// Up to so many things are looked at one by one: a walk through a tree would cost more.
-const FEW: usize = 8;
 
 /// Up to so many things are looked at one by one for all samples of a light: a bit for each.
 const MANY: usize = u64::BITS as usize;
@@ -18,10 +15,18 @@ pub(super) struct Level {
     /// Index into the solids for each box, ascending; empty meshes are left out.
     ids: Vec<u32>,
     bounds: Vec<Bound>,
-    /// Where there are more than a few.
-    tree: Option<BspTree>,
+    search: Search,
     /// The box around all finite boxes.
     whole: Aabb,
+}
+
+/// How boxes are searched.
+#[derive(Debug)]
+enum Search {
+    /// All at once, where there are only a few: a walk through a tree would cost more.
+    Few(FewBoxes),
+    /// By a tree, where there are more.
+    Tree(BspTree),
 }
 
 /// A set of boxes of a [`Level`] that may be met: one bit for each, or all.
@@ -67,10 +72,13 @@ impl Level {
                 bounds.push(Bound::new(solid));
             }
         }
-        let tree =
-            if boxes.len() > FEW { Some(BspTree::build(&boxes, &BuildParams::BALANCED)?) } else { None };
+        let search = if boxes.len() > FEW {
+            Search::Tree(BspTree::build(&boxes, &BuildParams::BALANCED)?)
+        } else {
+            Search::Few(FewBoxes::new(&boxes))
+        };
         let whole = boxes.iter().filter(|b| b.is_finite()).fold(Aabb::EMPTY, |all, &b| all.union(b));
-        Ok(Self { ids, bounds, tree, whole })
+        Ok(Self { ids, bounds, search, whole })
     }
 
     /// The box around everything finite; empty when there is nothing.
@@ -80,7 +88,10 @@ impl Level {
 
     /// The tree, where there is one.
     pub(super) fn tree(&self) -> Option<&BspTree> {
-        self.tree.as_ref()
+        match &self.search {
+            Search::Few(_) => None,
+            Search::Tree(tree) => Some(tree),
+        }
     }
 
     /// See [`RayIndex::closest_hit`]; primitives are indices into the solids. `hit` says where on the ray it met something, and
@@ -91,7 +102,10 @@ impl Level {
         ray: &Ray,
         mut hit: impl FnMut(u32, &Ray, &mut T) -> Option<f32>,
     ) -> Option<Found<T>> {
-        let Some(tree) = &self.tree else { return self.closest_of_few(ray, hit) };
+        let tree = match &self.search {
+            Search::Few(boxes) => return self.closest_of_few(boxes, ray, hit),
+            Search::Tree(tree) => tree,
+        };
         let hit = kept(|i: u32, ray: &Ray, data: &mut T| hit(self.ids[i as usize], ray, data));
         let found = tree.closest_hit(ray, hit)?;
         Some(Found { primitive: self.ids[found.primitive as usize], ..found })
@@ -104,9 +118,12 @@ impl Level {
         cost: &mut TraversalCost,
         mut hit: impl FnMut(u32, &Ray, &mut T) -> Option<f32>,
     ) -> Option<Found<T>> {
-        let Some(tree) = &self.tree else {
-            cost.tests += self.ids.len() as u64;
-            return self.closest_of_few(ray, hit);
+        let tree = match &self.search {
+            Search::Few(boxes) => {
+                cost.tests += self.ids.len() as u64;
+                return self.closest_of_few(boxes, ray, hit);
+            }
+            Search::Tree(tree) => tree,
         };
         let hit = kept(|i: u32, ray: &Ray, data: &mut T| hit(self.ids[i as usize], ray, data));
         let found = tree.closest_hit_counted(ray, hit, cost)?;
@@ -116,12 +133,15 @@ impl Level {
     #[inline]
     fn closest_of_few<T: Default>(
         &self,
+        boxes: &FewBoxes,
         ray: &Ray,
         mut hit: impl FnMut(u32, &Ray, &mut T) -> Option<f32>,
     ) -> Option<Found<T>> {
         let (mut search, mut nearest, mut data) = (*ray, None, T::default());
-        for (&primitive, bound) in self.ids.iter().zip(&self.bounds) {
-            if bound.may_meet(&search)
+        let entries = boxes.entries(ray);
+        for i in bits::places(entries.may_meet.into()) {
+            let primitive = self.ids[i];
+            if entries.before(i, search.range.max)
                 && let Some(t) = hit(primitive, &search, &mut data)
             {
                 // Ids ascend: of two at the same distance the lower one stays, so the search ends before it.
@@ -159,7 +179,7 @@ impl Level {
     #[inline]
     fn few_bits(&self, candidates: Candidates) -> Option<u64> {
         let Candidates::Some(set) = candidates else { return None };
-        (self.tree.is_none() || set.count_ones() as usize <= FEW).then_some(set)
+        (self.tree().is_none() || set.count_ones() as usize <= FEW).then_some(set)
     }
 
     /// See [`RayIndex::any_hit`], among the candidates.
@@ -170,26 +190,28 @@ impl Level {
         candidates: Candidates,
         mut hit: impl FnMut(u32, &Ray) -> bool,
     ) -> bool {
-        match (self.few_bits(candidates), &self.tree) {
-            (Some(few), _) => {
+        match (&self.search, self.few_bits(candidates)) {
+            (Search::Few(boxes), _) => {
+                let asked = boxes.entries(ray).may_meet.into();
+                let asked = candidates.among(Candidates::Some(asked));
+                self.few_bits(asked).is_some_and(|asked| bits::places(asked).any(|i| hit(self.ids[i], ray)))
+            }
+            (Search::Tree(_), Some(few)) => {
                 bits::places(few).any(|i| self.bounds[i].may_meet(ray) && hit(self.ids[i], ray))
             }
-            (None, Some(tree)) => tree.any_hit(ray, |i, ray| hit(self.ids[i as usize], ray)),
-            // Without a tree there are few, if any.
-            (None, None) => self.ids.iter().any(|&id| hit(id, ray)),
+            (Search::Tree(tree), None) => tree.any_hit(ray, |i, ray| hit(self.ids[i as usize], ray)),
         }
     }
 
     /// See [`RayIndex::for_each_hit`], among the candidates; in the order of the ids where there are few.
     #[inline]
     pub(super) fn each(&self, ray: &Ray, candidates: Candidates, mut visit: impl FnMut(u32)) {
-        match (self.few_bits(candidates), &self.tree) {
-            (Some(few), _) => {
+        match (&self.search, self.few_bits(candidates)) {
+            (Search::Tree(tree), None) => tree.for_each_hit(ray, |i| visit(self.ids[i as usize])),
+            (_, Some(few)) => {
                 bits::places(few).filter(|&i| self.bounds[i].may_meet(ray)).for_each(|i| visit(self.ids[i]));
             }
-            (None, Some(tree)) => tree.for_each_hit(ray, |i| visit(self.ids[i as usize])),
-            // Without a tree there are few, if any.
-            (None, None) => self.ids.iter().for_each(|&id| visit(id)),
+            (Search::Few(_), None) => self.ids.iter().for_each(|&id| visit(id)),
         }
     }
 }

@@ -1,11 +1,11 @@
 //! A bound never says of a ray that meets a thing that it does not.
 
-use super::Bound;
+use super::{Bound, BoxRay, FEW, FewBoxes};
 use crate::world::place::Place;
 use crate::world::solid::{Solid, Stock};
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec2, Vec3};
 use heliostat_geometry::shape::{Cone, Cuboid, Cylinder, Disk, Rectangle, Shape, Sphere, Torus};
-use heliostat_geometry::{Ray, Transform};
+use heliostat_geometry::{Aabb, Ray, Transform};
 use heliostat_scene::Scene;
 use heliostat_scene::object::Geometry;
 use proptest::prelude::*;
@@ -58,7 +58,34 @@ proptest! {
         prop_assume!(ray.is_valid());
         if solid.blocks(&ray, 0.0) {
             prop_assert!(Bound::new(&solid).may_meet(&ray));
+            prop_assert_eq!(FewBoxes::new(&[solid.bounds]).entries(&ray).may_meet, 1);
         }
+    }
+
+    /// All at once they say what each says alone.
+    #[test]
+    fn few_boxes_are_boxes(
+        corners in prop::collection::vec((vec3(10.0), vec3(3.0)), 0..=FEW),
+        from in vec3(20.0),
+        dir in vec3(1.0),
+        flat in 0..4_usize,
+        end in prop_oneof![Just(f32::INFINITY), 0.0_f32..40.0],
+    ) {
+        // Some rays run along an axis, or in a plane.
+        let dir = if flat < 3 { dir.with_x(0.0) } else { dir };
+        let ray = Ray::new(from, dir).until(end);
+        prop_assume!(ray.is_valid());
+        let boxes: Vec<_> = corners.iter().map(|&(a, size)| Aabb { min: a, max: a + size.abs() }).collect();
+        let entries = FewBoxes::new(&boxes).entries(&ray);
+        for (i, bounds) in boxes.iter().enumerate() {
+            let alone = BoxRay::new(&ray);
+            prop_assert_eq!(entries.may_meet >> i & 1 == 1, alone.may_meet(bounds, end));
+            for nearer in [0.25 * end, 0.5 * end] {
+                let both = entries.may_meet >> i & 1 == 1 && entries.before(i, nearer);
+                prop_assert!(both || !alone.may_meet(bounds, nearer));
+            }
+        }
+        prop_assert_eq!(u32::from(entries.may_meet) >> boxes.len(), 0);
     }
 }
 
