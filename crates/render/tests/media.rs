@@ -1,5 +1,7 @@
 //! Media against the laws that they follow: what gets through, what is scattered once, and that no light is made or lost.
 
+#![expect(clippy::unwrap_used, reason = "a stage that does not stand fails its test")]
+
 mod common;
 
 use common::{Estimate, Looker, Stage, at, black, cuboid, plane, sphere, white};
@@ -227,9 +229,7 @@ fn paths_by_chance_and_by_question_find_the_same_in_media() {
         falloff: heliostat_scene::light::Falloff::InverseSquare,
     };
     let lit = |medium, visible| {
-        stage()
-            .filled(cuboid(2.0, 2.0, 2.0), medium, Transform::IDENTITY)
-            .with_light(2.0, 1, lamp(visible))
+        stage().filled(cuboid(2.0, 2.0, 2.0), medium, Transform::IDENTITY).with_light(2.0, 1, lamp(visible))
     };
     // A lamp that is not seen is found by questions alone; the ray looks past it.
     let past = Vec3::new(-0.7, -0.3, 0.0);

@@ -72,7 +72,8 @@ impl Scene {
     /// The integrator for a scene that names none: paths through media where there is a medium or light walks below surfaces,
     /// paths where a material is physically based, else the report's recursion.
     pub fn natural_integrator(&self) -> IntegratorKind {
-        let has_medium = |material: &Material| material.interior.is_some() || material.surface.has_subsurface();
+        let has_medium =
+            |material: &Material| material.interior.is_some() || material.surface.has_subsurface();
         let is_physical = |material: &Material| matches!(material.surface, Surface::Standard(_));
         if self.atmosphere.is_some() || self.materials.iter().any(has_medium) {
             IntegratorKind::VolPath

@@ -75,7 +75,13 @@ impl DepthLimits {
 
 impl Default for DepthLimits {
     fn default() -> Self {
-        Self { total: Self::MOST, diffuse: Self::MOST, glossy: Self::MOST, transmission: Self::MOST, volume: Self::MOST_VOLUME }
+        Self {
+            total: Self::MOST,
+            diffuse: Self::MOST,
+            glossy: Self::MOST,
+            transmission: Self::MOST,
+            volume: Self::MOST_VOLUME,
+        }
     }
 }
 

@@ -176,7 +176,8 @@ impl Path {
         if point.scatters() {
             let weight = |light: &light::LightSample, pdf: f32| heuristic(light.pdf, pdf);
             let by_chance = (choices.x, draws.next_2d());
-            let light = way.weight * from_lights(world, &point, way.around.ruling(), by_chance, weight, counters);
+            let light =
+                way.weight * from_lights(world, &point, way.around.ruling(), by_chance, weight, counters);
             found.radiance += self.clamped(light, way.depth.total);
         }
         let onward = point.sample(&way.passing, choices.y, draws.next_2d());

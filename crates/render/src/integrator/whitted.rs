@@ -188,7 +188,10 @@ impl Whitted {
                 passing: branch.passing.behind(surface, dir),
                 weight: branch.weight * weight,
                 depth: branch.depth + 1,
-                inside: surface.thing().filter(|_| point.enters).map(|thing| Inside::of(thing, point.material)),
+                inside: surface
+                    .thing()
+                    .filter(|_| point.enters)
+                    .map(|thing| Inside::of(thing, point.material)),
                 from_camera: false,
                 sampler: branch.sampler.fork(GLASS_BRANCH),
                 ..*branch

@@ -30,7 +30,9 @@ impl MaterialEval<'_> {
             diffuse_transmission: share(&standard.diffuse_transmission),
             diffuse_transmission_color: color(&standard.diffuse_transmission_color),
             subsurface: share(&standard.subsurface),
-            subsurface_color: unit_color(vertex_color.unwrap_or(Rgb::ONE) * self.color(&standard.subsurface_color)),
+            subsurface_color: unit_color(
+                vertex_color.unwrap_or(Rgb::ONE) * self.color(&standard.subsurface_color),
+            ),
             walks: false,
             coat: share(&standard.coat),
             coat_roughness: share(&standard.coat_roughness),

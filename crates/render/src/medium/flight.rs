@@ -152,14 +152,7 @@ impl PreparedMedium<'_> {
         None
     }
 
-    fn pass_grid(
-        &self,
-        grid: &Grid<'_>,
-        way: &Way,
-        lead: &mut Lead,
-        carried: &mut Rgb,
-        draws: &mut Sampler,
-    ) {
+    fn pass_grid(&self, grid: &Grid<'_>, way: &Way, lead: &mut Lead, carried: &mut Rgb, draws: &mut Sampler) {
         let start = carried.max_element();
         for block in grid.blocks(way) {
             let most = block.most * self.extinction;

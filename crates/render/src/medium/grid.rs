@@ -35,12 +35,8 @@ impl<'s> Grid<'s> {
         let counts = IVec3::from_array(grid.size.map(|n| n.div_ceil(BLOCK) as i32));
         let (x, y, z) = (counts.x, counts.y, counts.z);
         let places = (0..z).flat_map(|k| (0..y).flat_map(move |j| (0..x).map(move |i| IVec3::new(i, j, k))));
-        let mut this = Self {
-            grid,
-            to_unit: grid.place.inverse_matrix().as_affine3a(),
-            counts,
-            most: Vec::new(),
-        };
+        let mut this =
+            Self { grid, to_unit: grid.place.inverse_matrix().as_affine3a(), counts, most: Vec::new() };
         this.most = places.map(|block| this.most_in(block)).collect();
         this
     }

@@ -60,7 +60,9 @@ mod tests {
             for i in 0..DRAWS {
                 // Independent numbers: a net would be more even than chance.
                 let (to, pdf) = phase.sample(dir, Sampler::new(i.into(), [0, 0], 0).next_2d());
-                assert!((to.length() - 1.0).abs() < 1e-4 && (pdf / phase.density(dir, to) - 1.0).abs() < 1e-6);
+                assert!(
+                    (to.length() - 1.0).abs() < 1e-4 && (pdf / phase.density(dir, to) - 1.0).abs() < 1e-6
+                );
                 // The share of directions that are turned less: bins of equal probability.
                 let share = turned_less(g.into(), to.dot(dir).into());
                 counts[((share * BINS as f64) as usize).min(BINS - 1)] += 1;
@@ -77,7 +79,8 @@ mod tests {
         if g == 0.0 {
             return 0.5 * (1.0 - cos);
         }
-        let below = (1.0 - g * g) / (2.0 * g) * (1.0 / (1.0 + g * g - 2.0 * g * cos).sqrt() - 1.0 / (1.0 + g));
+        let below =
+            (1.0 - g * g) / (2.0 * g) * (1.0 / (1.0 + g * g - 2.0 * g * cos).sqrt() - 1.0 / (1.0 + g));
         (1.0 - below).clamp(0.0, 1.0)
     }
 

@@ -164,7 +164,15 @@ impl Material {
     /// A surface that covers all and is smooth.
     pub fn of(name: impl Into<String>, surface: Surface) -> Self {
         let opacity = FloatInput::constant(1.0);
-        Self { name: name.into(), surface, opacity, cutoff: None, relief: None, interior: None, priority: None }
+        Self {
+            name: name.into(),
+            surface,
+            opacity,
+            cutoff: None,
+            relief: None,
+            interior: None,
+            priority: None,
+        }
     }
 
     /// One of the report's surfaces.

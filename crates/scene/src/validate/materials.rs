@@ -57,7 +57,9 @@ fn check_standard(standard: &Standard, c: &mut Collector<'_>) {
     c.color("absorption", standard.absorption);
     let radius = standard.subsurface_radius;
     c.number("subsurface_radius", radius.min_element(), "above 0", |v| v > 0.0 && radius.is_finite());
-    c.number("subsurface_anisotropy", standard.subsurface_anisotropy, "above -1 and below 1", |v| v.abs() < 1.0);
+    c.number("subsurface_anisotropy", standard.subsurface_anisotropy, "above -1 and below 1", |v| {
+        v.abs() < 1.0
+    });
     c.not_negative("dispersion", standard.dispersion);
     standard.coat_relief.into_iter().for_each(|relief| check_relief(relief, c));
     let film = &standard.thin_film;

@@ -30,7 +30,8 @@ pub(crate) enum Way {
     Under,
 }
 
-pub(crate) const WAYS: [Way; 7] = [Way::Coat, Way::Fibres, Way::Reflected, Way::Passed, Way::Up, Way::Down, Way::Under];
+pub(crate) const WAYS: [Way; 7] =
+    [Way::Coat, Way::Fibres, Way::Reflected, Way::Passed, Way::Up, Way::Down, Way::Under];
 
 /// A surface and who looks at it.
 #[derive(Clone, Copy, Debug)]

@@ -61,7 +61,6 @@ const LOSSLESS: &[(&str, Change)] = &[
     ("matte, rough", |p| (p.specular, p.diffuse_roughness) = (0.0, 1.0)),
     ("plastic", |_| ()),
     ("plastic, light let in", |p| (p.subsurface, p.walks) = (0.7, true)),
-    ("plastic, light let in under a coat", |p| (p.subsurface, p.walks, p.coat) = (1.0, true, 1.0)),
     ("plastic, rough matte", |p| p.diffuse_roughness = 1.0),
     ("plastic, ior 2.4", |p| p.ior = 2.4),
     ("plastic, ior 1", |p| p.ior = 1.0),

@@ -12,24 +12,25 @@
 //! As [`super::path`]; Miller, Georgiev, Jarosz, "A Null-Scattering Path Integral Formulation of Light Transport", SIGGRAPH 2019;
 //! Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th edition, section 14.2.
 
+mod found;
 mod shadow;
 mod under;
 mod way;
 
 use super::first::{first_from, on_light};
-use super::next_event::heuristic;
 use super::path::HOLES;
-use super::{CameraRay, FirstHit, Integrator, Sample};
+use super::{CameraRay, Integrator, Sample};
 use crate::bsdf::Event;
 use crate::counters::RayCounters;
 use crate::light::{self, Lookout};
 use crate::path_point::{Covering, PathPoint};
 use crate::sampler::Sampler;
 use crate::world::{Matter, Owner, PassingRay, SurfaceHit, World};
+use found::Found;
 use glam::Vec3;
 use heliostat_geometry::{Ray, SurfacePoint};
+use heliostat_scene::RenderSettings;
 use heliostat_scene::settings::DepthLimits;
-use heliostat_scene::{RenderSettings, Rgb};
 use shadow::Ask;
 use std::ops::ControlFlow;
 use under::Walk;
@@ -47,15 +48,6 @@ pub struct VolPath {
     limits: DepthLimits,
     clamp: f32,
     transparent_background: bool,
-}
-
-/// What a path has found.
-#[derive(Clone, Copy, Debug, Default)]
-struct Found {
-    radiance: Rgb,
-    /// Weight with which it left the scene where the background is to stay transparent.
-    through: f32,
-    first: Option<FirstHit>,
 }
 
 /// Where and when a step is made, and what is counted on it.
@@ -219,7 +211,8 @@ impl VolPath {
         if !point.scatters() {
             return;
         }
-        let Some(light) = step.world.light_table().draw(&point.lookout(), choice, step.draws.next_2d()) else {
+        let Some(light) = step.world.light_table().draw(&point.lookout(), choice, step.draws.next_2d())
+        else {
             return;
         };
         let (value, pdf) = point.eval(light.to_light);
@@ -257,52 +250,6 @@ impl VolPath {
         let (to, pdf) = phase.sample(dir, step.draws.next_2d());
         way.scattered_by_medium(from, PassingRay::free(Ray::new(p, to)), pdf, &self.limits);
         way.roulette(&mut step.draws)
-    }
-
-    /// Adds the light of a surface that shines, by the share that asking for it has left over.
-    #[inline]
-    fn add_light(&self, world: &World<'_>, way: &Way, surface: &SurfaceHit, shine: Rgb, found: &mut Found) {
-        if shine == Rgb::ZERO {
-            return;
-        }
-        let (own, asked) = way.chances();
-        let share = |(from, pdf): (Lookout, f32)| {
-            heuristic(pdf * own, world.light_table().density(&from, surface) * asked)
-        };
-        let share = way.scattered.map_or(1.0, share);
-        found.radiance += self.clamped(share * way.settled() * shine, way.depth.all().saturating_sub(1));
-    }
-
-    /// Adds what comes from infinitely far, or leaves it transparent.
-    fn leave(&self, world: &World<'_>, way: &Way, found: &mut Found) {
-        let weight = way.settled();
-        if !weight.is_finite() {
-            return;
-        }
-        if self.transparent_background && way.passed_only {
-            found.through = weight.element_sum() / 3.0;
-            return;
-        }
-        let (lights, dir) = (world.light_table(), way.passing.ray.dir.normalize());
-        let (own, asked) = way.chances();
-        let radiance = match &way.scattered {
-            Some((from, pdf)) => lights.beyond(from, dir, |other| heuristic(pdf * own, other * asked)),
-            None if way.passed_only => lights.sky.seen(dir),
-            None => lights.mirrored(dir),
-        };
-        found.radiance += self.clamped(weight * radiance, way.depth.all().saturating_sub(1));
-    }
-
-    /// Light that was scattered so often before, weakened to what is let through of indirect light; nothing where rounding has
-    /// lost it.
-    #[inline]
-    fn clamped(&self, light: Rgb, scatterings: u32) -> Rgb {
-        let most = light.max_element();
-        match scatterings > 0 && most > self.clamp {
-            _ if !light.is_finite() => Rgb::ZERO,
-            true => self.clamp / most * light,
-            false => light,
-        }
     }
 }
 
