@@ -7,11 +7,13 @@ mod common;
 use common::{Estimate, Looker, Stage, at, black, cuboid, plane, sphere, white};
 use glam::{DAffine3, DVec3, Vec3};
 use heliostat_geometry::Transform;
+use heliostat_render::render;
+use heliostat_scene::camera::Projection;
 use heliostat_scene::light::LightKind;
 use heliostat_scene::medium::{Atmosphere, DensityGrid};
 use heliostat_scene::object::Geometry;
 use heliostat_scene::settings::{DepthLimits, IntegratorKind};
-use heliostat_scene::{Medium, MediumId, Rgb};
+use heliostat_scene::{Camera, Medium, MediumId, Motion, RenderSettings, Rgb};
 use std::f32::consts::PI;
 
 const FROM: Vec3 = Vec3::new(0.1, 0.2, 5.0);
@@ -243,5 +245,30 @@ fn paths_by_chance_and_by_question_find_the_same_in_media() {
         }
         let [both, asked] = limited.map(|stage| Estimate::new(&stage, FROM, past, 2048));
         both.assert_same(&asked, &format!("grid {grid}"));
+    }
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let medium = even(Rgb::splat(0.1), Rgb::new(0.3, 1.0, 3.0), 0.2);
+    let mut stage = stage()
+        .filled(cuboid(2.0, 2.0, 2.0), ramp(medium), Transform::IDENTITY)
+        .with(plane(), white(), at(0.0, -1.2, 0.0))
+        .with_point_light(9.0, Vec3::new(0.5, 3.0, 1.0))
+        .with_sky(0.3);
+    stage.scene.cameras.push(Camera {
+        name: "front".into(),
+        motion: Motion::still(DAffine3::from_translation(DVec3::new(0.0, 0.0, 5.0))),
+        projection: Projection::Perspective { fov_y: 0.7 },
+        focus: None,
+    });
+    let frame = |threads| {
+        let settings =
+            RenderSettings { width: 40, height: 32, samples: 4, threads, ..stage.settings.clone() };
+        render(&stage.scene, &settings).unwrap().channels
+    };
+    let (one, three) = (frame(1), frame(3));
+    for (a, b) in one.iter().zip(&three) {
+        assert!(a.values.iter().zip(&b.values).all(|(a, b)| a.to_bits() == b.to_bits()), "{}", a.name);
     }
 }
