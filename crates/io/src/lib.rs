@@ -21,6 +21,7 @@ pub mod schema;
 pub mod source;
 pub mod texture_cache;
 pub mod view;
+pub mod volume_file;
 
 pub use error::{LoadError, Warning};
 pub use save_error::SaveError;

@@ -59,9 +59,9 @@ pub(crate) fn meta(
 
 /// What a path may lack: where limits are set, its light is not all there is.
 fn say_biases(settings: &RenderSettings, say: &mut impl FnMut(&str, Meta) -> Option<Meta>) {
-    let DepthLimits { total, diffuse, glossy, transmission } = settings.depth_limits;
+    let DepthLimits { total, diffuse, glossy, transmission, volume } = settings.depth_limits;
     if settings.depth_limits != DepthLimits::default() {
-        say("heliostat/depthLimits", text(&format!("{total},{diffuse},{glossy},{transmission}")));
+        say("heliostat/depthLimits", text(&format!("{total},{diffuse},{glossy},{transmission},{volume}")));
     }
     if let Some(clamp) = settings.clamp_indirect {
         say("heliostat/clampIndirect", Meta::Float(clamp));
@@ -112,6 +112,7 @@ fn integrator_name(kind: IntegratorKind) -> &'static str {
         IntegratorKind::Direct => "direct",
         IntegratorKind::PathSimple => "path_simple",
         IntegratorKind::Path => "path",
+        IntegratorKind::VolPath => "volpath",
     }
 }
 

@@ -1,11 +1,13 @@
 //! A surface point as paths see it: how it scatters light, and which way goes on from it.
 
-use crate::bsdf::{Bsdf, BsdfSample, Event, View};
+use crate::bsdf::{Bsdf, BsdfSample, Event, Surroundings, View};
 use crate::counters::RayCounters;
 use crate::horizon::Horizon;
 use crate::integrator::FirstHit;
+use crate::interiors::{Change, Interiors};
 use crate::light::{Lookout, Target};
 use crate::material_eval::MaterialEval;
+use crate::medium::PreparedMedium;
 use crate::normals::Normals;
 use crate::world::{Inside, PassingRay, SurfaceHit, World};
 use glam::{Vec2, Vec3};
@@ -41,8 +43,8 @@ pub(crate) struct PathPoint<'a> {
 pub(crate) struct Onward {
     /// The ray, and what it crosses.
     pub(crate) passing: PassingRay,
-    /// Glass that it runs through; as before where `None`.
-    pub(crate) inside: Option<Option<Inside>>,
+    /// What it runs through from here on.
+    pub(crate) change: Change,
     /// Whether it goes on as if there were nothing, so that lights are seen through the surface.
     pub(crate) is_straight: bool,
     /// How it was drawn; the weight is what the radiance from there is multiplied by.
@@ -56,7 +58,7 @@ impl Onward {
         *match self.sample.event {
             Event::Transmission => &mut counters.refraction,
             _ if self.sample.is_delta() => &mut counters.reflection,
-            Event::Diffuse | Event::Glossy => &mut counters.scatter,
+            Event::Diffuse | Event::Glossy | Event::Subsurface => &mut counters.scatter,
         } += 1;
     }
 }
@@ -75,6 +77,33 @@ impl<'a> Covering<'a> {
     pub(crate) fn opacity(&self) -> f32 {
         let is_whole = !self.material.has_holes() && self.eval.at.coverage == 1.0;
         if is_whole { 1.0 } else { self.eval.opacity(self.material) }
+    }
+
+    /// Whether the surface does not exist: another body with a higher priority is there.
+    #[inline]
+    pub(crate) fn is_hidden(&self, surface: &SurfaceHit, around: &Interiors) -> bool {
+        self.material.priority.is_some()
+            && surface.thing().is_some_and(|thing| around.hides(thing, self.material.priority))
+    }
+
+    /// What a ray in direction `dir` enters or leaves that passes as if there were no surface.
+    pub(crate) fn straight_change(&self, surface: &SurfaceHit, dir: Vec3) -> Change {
+        let is_boundary = self.material.interior.is_some() || self.material.priority.is_some();
+        match surface.thing() {
+            Some(thing) if is_boundary => {
+                let enters = dir.dot(surface.hit.at.ng) < 0.0;
+                if enters { Change::Enter(Inside::of(thing, self.material)) } else { Change::Leave(thing) }
+            }
+            _ => Change::None,
+        }
+    }
+
+    /// What fills the body below the surface, where light is let in to walk there.
+    pub(crate) fn below(&self, surface: &SurfaceHit) -> Option<PreparedMedium<'static>> {
+        match &self.material.surface {
+            Surface::Standard(standard) => Some(self.eval.below(standard, surface.color)),
+            Surface::Phong(_) | Surface::Unlit(_) => None,
+        }
     }
 
     /// Radiance that the surface gives off and that lights the scene.
@@ -109,20 +138,51 @@ impl<'a> PathPoint<'a> {
         surface: &'a SurfaceHit,
         dir: Vec3,
         time: f32,
+        around: &Interiors,
         room: &'a mut Option<Bsdf>,
     ) -> Self {
         let Covering { id, material, eval } = covering;
         let normals = Normals::new(eval, material.relief, &surface.hit, dir);
         let frame = frame_along(normals.ns, surface.hit.dpdu);
-        let wo = frame.to_local(normals.view);
-        let known = world.known_bsdfs().get(*id, normals.enters).filter(|_| surface.color.is_none());
+        let around = Surroundings { ior: around.ior_beside(surface.thing()), walks: world.walks() };
+        let known = world.known_bsdfs().get(*id, normals.enters);
+        let known = known.filter(|_| surface.color.is_none() && around.ior == 1.0);
         let bsdf = known.unwrap_or_else(|| {
             let coat_normal = match material.surface.coat_relief() {
                 None => Vec3::Z,
                 Some(relief) => frame.to_local(Normals::new(eval, Some(relief), &surface.hit, dir).ns),
             };
-            room.insert(Bsdf::new(&material.surface, eval, surface.color, normals.enters, coat_normal))
+            let (surface, color) = (&material.surface, surface.color);
+            room.insert(Bsdf::new(surface, eval, color, normals.enters, coat_normal, around))
         });
+        Self::with(world, material, surface, normals, frame, time, bsdf)
+    }
+
+    /// A white matte point where light comes out from below a surface, seen from outside.
+    pub(crate) fn outside(
+        world: &'a World<'_>,
+        covering: &Covering<'a>,
+        surface: &'a SurfaceHit,
+        time: f32,
+        room: &'a mut Option<Bsdf>,
+    ) -> Self {
+        let Covering { material, eval, .. } = covering;
+        let normals = Normals::new(eval, material.relief, &surface.hit, -surface.hit.at.ng);
+        let frame = frame_along(normals.ns, surface.hit.dpdu);
+        Self::with(world, material, surface, normals, frame, time, room.insert(Bsdf::white()))
+    }
+
+    #[inline]
+    fn with(
+        world: &'a World<'_>,
+        material: &'a Material,
+        surface: &'a SurfaceHit,
+        normals: Normals,
+        frame: OrthonormalFrame,
+        time: f32,
+        bsdf: &'a Bsdf,
+    ) -> Self {
+        let wo = frame.to_local(normals.view);
         let sides = [normals.ng, normals.smooth];
         Self {
             surface,
@@ -229,7 +289,7 @@ impl<'a> PathPoint<'a> {
             return self.behind(passing, sample, dir);
         }
         let passing = passing.back(self.surface, self.surface.hit.spawn(dir));
-        Onward { passing, inside: None, is_straight: false, sample }
+        Onward { passing, change: Change::None, is_straight: false, sample }
     }
 
     /// A way to the viewer's side.
@@ -238,24 +298,20 @@ impl<'a> PathPoint<'a> {
         let ray = self.horizon.start.spawn(dir);
         let passing =
             if self.horizon.lifted { PassingRay::free(ray) } else { passing.back(self.surface, ray) };
-        Onward { passing, inside: None, is_straight: false, sample }
+        Onward { passing, change: Change::None, is_straight: false, sample }
     }
 
     /// A way through the surface.
     fn behind(&self, passing: &PassingRay, sample: BsdfSample, dir: Vec3) -> Onward {
-        let surface = &self.material.surface;
-        let enters = self.normals.enters && surface.refracts();
-        let (absorption, bends) = (surface.absorption(), !surface.passes_straight());
-        Onward {
-            passing: passing.behind(self.surface, dir),
-            inside: Some(self.surface.thing().filter(|_| enters).map(|thing| Inside {
-                thing,
-                absorption,
-                bends,
-            })),
-            is_straight: false,
-            sample,
-        }
+        let is_boundary = self.material.surface.encloses() || self.material.interior.is_some();
+        let change = match self.surface.thing() {
+            Some(thing) if self.normals.enters && is_boundary => {
+                Change::Enter(Inside::of(thing, self.material))
+            }
+            Some(thing) if !self.normals.enters => Change::Leave(thing),
+            _ => Change::None,
+        };
+        Onward { passing: passing.behind(self.surface, dir), change, is_straight: false, sample }
     }
 }
 

@@ -8,7 +8,7 @@ use crate::phong::{fresnel, reflect, refract};
 use crate::world::{SurfaceHit, World};
 use glam::Vec3;
 use heliostat_scene::material::FresnelMode;
-use heliostat_scene::{MaterialId, Rgb};
+use heliostat_scene::{Material, MaterialId, Rgb};
 
 /// A surface point seen from one side.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +27,7 @@ pub(crate) struct ShadingPoint<'a> {
     time: f32,
     /// Coverage.
     pub(crate) opacity: f32,
+    pub(crate) material: &'a Material,
     /// The material here.
     pub(crate) phong: PhongPoint,
 }
@@ -71,6 +72,7 @@ impl<'a> ShadingPoint<'a> {
             ns: towards(bent, view),
             time,
             opacity: eval.opacity(material),
+            material,
             phong: eval.phong(&material.surface.phong(), surface.color),
         }
     }

@@ -49,6 +49,8 @@ fn assert_agree(mut stage: Stage, from: Vec3, to: Vec3, samples: u32, what: &str
     let path = seen(IntegratorKind::Path, samples);
     assert!(path.mean.min_element() > 0.0, "{what} is black: {path:?}");
     path.assert_same(&simple, what);
+    let volpath = seen(IntegratorKind::VolPath, samples);
+    volpath.assert_same(&simple, what);
 }
 
 const FROM: Vec3 = Vec3::new(0.5, 1.5, 4.0);

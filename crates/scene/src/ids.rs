@@ -28,6 +28,10 @@ id!(
     TextureId
 );
 id!(
+    /// Index into [`crate::Scene::media`].
+    MediumId
+);
+id!(
     /// Index into [`crate::Scene::groups`].
     GroupId
 );

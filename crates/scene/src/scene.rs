@@ -5,6 +5,7 @@ use crate::color::Rgb;
 use crate::group::Group;
 use crate::light::Light;
 use crate::material::{Material, Surface};
+use crate::medium::{Atmosphere, Medium};
 use crate::object::Object;
 use crate::settings::IntegratorKind;
 use crate::texture::Texture;
@@ -51,6 +52,8 @@ pub struct Scene {
     pub textures: Vec<Texture>,
     /// Materials, shared by objects.
     pub materials: Vec<Material>,
+    /// Media, shared by materials.
+    pub media: Vec<Medium>,
     /// Objects that are placed together, shared by objects.
     pub groups: Vec<Group>,
     /// What is there to see.
@@ -61,12 +64,23 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     /// What is seen behind everything.
     pub background: Background,
+    /// What fills the space around everything.
+    pub atmosphere: Option<Atmosphere>,
 }
 
 impl Scene {
-    /// The integrator for a scene that names none: paths where a material is physically based, else the report's recursion.
+    /// The integrator for a scene that names none: paths through media where there is a medium or light walks below surfaces,
+    /// paths where a material is physically based, else the report's recursion.
     pub fn natural_integrator(&self) -> IntegratorKind {
+        let has_medium =
+            |material: &Material| material.interior.is_some() || material.surface.has_subsurface();
         let is_physical = |material: &Material| matches!(material.surface, Surface::Standard(_));
-        if self.materials.iter().any(is_physical) { IntegratorKind::Path } else { IntegratorKind::Whitted }
+        if self.atmosphere.is_some() || self.materials.iter().any(has_medium) {
+            IntegratorKind::VolPath
+        } else if self.materials.iter().any(is_physical) {
+            IntegratorKind::Path
+        } else {
+            IntegratorKind::Whitted
+        }
     }
 }

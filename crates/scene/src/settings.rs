@@ -37,14 +37,16 @@ pub enum IntegratorKind {
     Direct,
     /// All ways of light, found by the scattering of surfaces alone: slow, short, and what [`Self::Path`] is held against.
     PathSimple,
-    /// All ways of light, found by lights and surfaces together.
+    /// All ways of light, found by lights and surfaces together; media are not seen.
     Path,
+    /// The same with the ways through media and below surfaces.
+    VolPath,
 }
 
 impl IntegratorKind {
     /// Whether it follows light as physics has it, so that surfaces and lights mean what their units say.
     pub fn traces_paths(self) -> bool {
-        matches!(self, Self::Direct | Self::PathSimple | Self::Path)
+        matches!(self, Self::Direct | Self::PathSimple | Self::Path | Self::VolPath)
     }
 }
 
@@ -60,16 +62,26 @@ pub struct DepthLimits {
     pub glossy: u32,
     /// Refracted, or let through by thin walls.
     pub transmission: u32,
+    /// Scattered by media; these do not count in `total`.
+    pub volume: u32,
 }
 
 impl DepthLimits {
     /// So deep that no light is missed that eye or image file could tell: paths end by chance long before.
     pub const MOST: u32 = 1024;
+    /// The same for media that scatter all and absorb nothing, in which light wanders for long.
+    pub const MOST_VOLUME: u32 = 1 << 20;
 }
 
 impl Default for DepthLimits {
     fn default() -> Self {
-        Self { total: Self::MOST, diffuse: Self::MOST, glossy: Self::MOST, transmission: Self::MOST }
+        Self {
+            total: Self::MOST,
+            diffuse: Self::MOST,
+            glossy: Self::MOST,
+            transmission: Self::MOST,
+            volume: Self::MOST_VOLUME,
+        }
     }
 }
 

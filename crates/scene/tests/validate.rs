@@ -8,11 +8,12 @@ use heliostat_scene::camera::{Camera, Focus, FocusMethod, Projection};
 use heliostat_scene::image::{Encoding, Image, Samples};
 use heliostat_scene::light::{Falloff, Light, LightKind};
 use heliostat_scene::material::{ColorInput, Material, Phong, Relief, Surface};
+use heliostat_scene::medium::{Atmosphere, DensityGrid};
 use heliostat_scene::object::{Geometry, Object};
 use heliostat_scene::scene::Background;
 use heliostat_scene::texture::{Filtering, Pattern, Texture, UvTransform, Wrap};
 use heliostat_scene::validate::{ItemKind, Problem};
-use heliostat_scene::{Group, GroupId, MaterialId, MeshId, Motion, Scene, TextureId};
+use heliostat_scene::{Group, GroupId, MaterialId, Medium, MediumId, MeshId, Motion, Rgb, Scene, TextureId};
 use std::sync::Arc;
 
 fn scene() -> Scene {
@@ -71,7 +72,7 @@ fn scene() -> Scene {
                 method: FocusMethod::Lens,
             }),
         }],
-        background: Background::default(),
+        ..Scene::default()
     }
 }
 
@@ -286,4 +287,45 @@ fn groups_in_groups() {
         chain(s, 16);
         s.groups.iter_mut().for_each(|group| group.places = vec![DAffine3::IDENTITY; 32]);
     });
+}
+
+#[test]
+fn media_have_numbers_and_grids_that_mean_something() {
+    let good = || {
+        let mut scene = scene();
+        let values = vec![0.5; 6].into();
+        let density = Some(DensityGrid { size: [1, 2, 3], values, place: Transform::IDENTITY });
+        let smoke = Medium::homogeneous("smoke", Rgb::ZERO, Rgb::ONE, 0.3);
+        scene.media = vec![Medium { density, ..smoke }, Medium::homogeneous("fog", Rgb::ONE, Rgb::ZERO, 0.0)];
+        scene.atmosphere = Some(Atmosphere { medium: MediumId(1), radius: None });
+        scene.materials[0].interior = Some(MediumId(0));
+        scene
+    };
+    assert_eq!(good().validate(), Ok(()));
+    let with = |change: fn(&mut Scene)| {
+        let mut scene = good();
+        change(&mut scene);
+        scene.validate().unwrap_err().iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    let grid = "medium `smoke`: the grid has not as many values as its size says";
+    type Case = (fn(&mut Scene), &'static str);
+    let cases: [Case; 8] = [
+        (|s| s.media[0].anisotropy = 1.0, "medium `smoke`: anisotropy must be above -1 and below 1, is 1"),
+        (|s| s.media[0].scattering.y = f32::NAN, "medium `smoke`: scattering is not finite"),
+        (|s| s.media[1].absorption.x = -1.0, "medium `fog`: absorption must be at least 0, is -1"),
+        (|s| s.media[0].density.as_mut().unwrap().size = [1, 2, 4], grid),
+        (|s| s.media[0].density.as_mut().unwrap().size = [0, 2, 3], grid),
+        (|s| s.media[1].name = "smoke".to_owned(), "medium `smoke`: the name is taken by an earlier one"),
+        (
+            |s| s.materials[0].interior = Some(MediumId(2)),
+            "material `red`: medium 2 does not exist, there are 2",
+        ),
+        (
+            |s| s.atmosphere = Some(Atmosphere { medium: MediumId(5), radius: None }),
+            "medium 5 does not exist, there are 2",
+        ),
+    ];
+    for (change, expected) in cases {
+        assert_eq!(with(change), [expected]);
+    }
 }

@@ -7,6 +7,7 @@ mod bird;
 mod noise;
 mod obj;
 mod partition;
+mod smoke;
 mod solids;
 mod sphere_points;
 mod textures;
@@ -39,7 +40,7 @@ pub(crate) fn check() -> Outcome {
 /// The bytes of all files that are committed.
 fn committed() -> Result<BTreeMap<PathBuf, Vec<u8>>, String> {
     let mut files = vec![root().join(partition::PICTURE)];
-    for folder in ["assets/meshes", "assets/textures"] {
+    for folder in ["assets/meshes", "assets/textures", "assets/volumes"] {
         let entries = std::fs::read_dir(root().join(folder)).map_err(|e| format!("{folder}: {e}"))?;
         files.extend(entries.filter_map(|entry| Some(entry.ok()?.path())));
     }
@@ -52,7 +53,7 @@ fn committed() -> Result<BTreeMap<PathBuf, Vec<u8>>, String> {
 
 fn from_formulas() -> Outcome {
     let folder = root().join("assets");
-    for name in ["meshes", "textures", "large"] {
+    for name in ["meshes", "textures", "volumes", "large"] {
         std::fs::create_dir_all(folder.join(name)).map_err(|e| format!("{}: {e}", folder.display()))?;
     }
     let meshes = [
@@ -72,6 +73,8 @@ fn from_formulas() -> Outcome {
         let path = folder.join("textures").join(name);
         image.save(&path).map_err(|e| format!("{}: {e}", path.display()))?;
     }
+    say("assets/volumes/smoke.vol");
+    smoke::write(&folder.join("volumes/smoke.vol"))?;
     Ok(())
 }
 

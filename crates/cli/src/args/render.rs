@@ -174,8 +174,11 @@ pub(crate) enum Integrator {
     /// All light, found by the scattering of surfaces alone: slow, to hold `path` against
     #[value(name = "path_simple", alias = "path-simple")]
     PathSimple,
-    /// All light, physically based
+    /// All light, physically based; media are not seen
     Path,
+    /// All light, that in media and below surfaces with it
+    #[value(name = "volpath")]
+    VolPath,
 }
 
 /// Types of colour channels in EXR.

@@ -8,6 +8,7 @@ use crate::image_file::{Limits, read_image};
 use crate::nearest::nearest_name;
 use crate::obj::{ObjModel, ObjOptions, Split, load_obj};
 use crate::texture_cache::TextureCache;
+use crate::volume_file::{Volume, read_volume};
 use heliostat_geometry::{Aabb, TriMesh};
 use heliostat_scene::Image;
 use heliostat_scene::image::Encoding;
@@ -61,6 +62,7 @@ pub(crate) struct Assets {
     models: HashMap<ModelKey, Arc<LoadedModel>>,
     /// Images as their files say, as sRGB, and as plain numbers.
     images: [TextureCache; 3],
+    volumes: HashMap<PathBuf, Arc<Volume>>,
 }
 
 impl Assets {
@@ -77,6 +79,7 @@ impl Assets {
             folder: folder.to_owned(),
             models: HashMap::new(),
             images: [encoded(None), encoded(Some(Encoding::Srgb)), encoded(Some(Encoding::Linear))],
+            volumes: HashMap::new(),
         }
     }
 
@@ -97,6 +100,25 @@ impl Assets {
             EncodingMode::Linear => 2,
         };
         self.images[cache].image(&path).map_err(|error| fault_at(file, &path, &error, made_by))
+    }
+
+    /// A grid of densities.
+    ///
+    /// # Errors
+    /// At the name, when the file cannot be read.
+    pub(crate) fn volume(
+        &mut self,
+        file: &Placed<String>,
+        made_by: Option<&str>,
+    ) -> Result<Arc<Volume>, Fault> {
+        let path = self.folder.join(file.as_str());
+        match self.volumes.entry(path.clone()) {
+            Entry::Occupied(entry) => Ok(Arc::clone(entry.get())),
+            Entry::Vacant(entry) => {
+                let volume = read_volume(&path).map_err(|error| fault_at(file, &path, &error, made_by))?;
+                Ok(Arc::clone(entry.insert(Arc::new(volume))))
+            }
+        }
     }
 
     /// All of an OBJ file as one mesh, and what its reader warns of.

@@ -62,6 +62,7 @@ pub(crate) fn build(
         scene: Scene::default(),
         warnings: Vec::new(),
     };
+    builder.media()?;
     builder.materials()?;
     let meshes = builder.meshes()?;
     let models = builder.models()?;
@@ -110,11 +111,24 @@ impl Builder<'_> {
     fn materials(&mut self) -> Result<(), Fault> {
         let mut textures = Textures::new(self.directory, &self.file.texture, self.assets, self.sources);
         for table in &self.file.material {
-            self.scene.materials.push(table.build(&mut textures)?);
+            self.scene.materials.push(table.build(&mut textures, &self.directory.media)?);
         }
         let (textures, warnings) = textures.finish();
         self.scene.textures = textures;
         self.warnings.extend(warnings);
+        Ok(())
+    }
+
+    fn media(&mut self) -> Result<(), Fault> {
+        for table in &self.file.medium {
+            let mut medium = table.build(table.span())?;
+            if let Some(grid) = &table.grid {
+                let volume = self.assets.volume(&grid.file, grid.made_by.as_deref())?;
+                medium.density = Some(grid.build(&volume)?);
+            }
+            self.scene.media.push(medium);
+        }
+        self.scene.atmosphere = self.file.environment.atmosphere(&self.directory.media)?;
         Ok(())
     }
 

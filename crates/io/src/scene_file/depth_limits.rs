@@ -9,6 +9,7 @@
 //! diffuse = 4                    # scattered by matte layers
 //! glossy = 4                     # reflected by smooth or rough layers
 //! transmission = 12              # refracted, or let through by thin walls
+//! volume = 100                   # scattered by media, which do not count in total; 1048576 where left out
 //! ```
 
 use super::number::Whole;
@@ -18,6 +19,9 @@ use serde::{Deserialize, Serialize};
 
 /// A length of paths.
 pub type Length = Whole<0, 1_024>;
+
+/// A length of paths in media.
+pub type VolumeLength = Whole<0, 1_048_576>;
 
 /// How long paths may be; 1024 where left out.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -31,6 +35,8 @@ pub struct DepthLimitsTable {
     pub glossy: Option<Length>,
     /// Refracted, or let through by thin walls.
     pub transmission: Option<Length>,
+    /// Scattered by media; 1048576 where left out.
+    pub volume: Option<VolumeLength>,
 }
 
 impl DepthLimitsTable {
@@ -42,6 +48,7 @@ impl DepthLimitsTable {
             diffuse: limit(self.diffuse),
             glossy: limit(self.glossy),
             transmission: limit(self.transmission),
+            volume: self.volume.map_or(DepthLimits::MOST_VOLUME, Whole::u32),
         }
     }
 
@@ -53,6 +60,7 @@ impl DepthLimitsTable {
             diffuse: length(limits.diffuse),
             glossy: length(limits.glossy),
             transmission: length(limits.transmission),
+            volume: Whole::new(i64::from(limits.volume.min(DepthLimits::MOST_VOLUME))),
         }
     }
 }

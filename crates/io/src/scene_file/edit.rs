@@ -9,7 +9,7 @@ use crate::document::{Fault, Key, Node, Segment, Span, Table, Value};
 use crate::error::quote;
 
 /// Sections that hold several named tables.
-const LISTS: [&str; 7] = ["texture", "material", "mesh", "model", "object", "group", "light"];
+const LISTS: [&str; 8] = ["texture", "medium", "material", "mesh", "model", "object", "group", "light"];
 
 /// Puts `value` at `path`.
 ///

@@ -9,12 +9,17 @@
 //! image = "sky.hdr"              # equirectangular, its middle towards -z
 //! intensity = 1                  # multiplies any of them
 //! rotation = 0                   # of the image, degrees about y, counter-clockwise seen from above
+//! # medium = "fog"               # what fills the space around everything: a ball around all finite things, lamps and cameras,
+//! # medium_radius = 100          # or a larger one, in metres; light from infinitely far comes through this ball alone
 //! ```
 
 use super::choice::{at_most_one, choice, without_effect};
-use super::number::Number;
+use super::names::Names;
+use super::number::{Number, Positive};
 use super::value::Color;
 use crate::document::{Fault, Placed};
+use heliostat_scene::MediumId;
+use heliostat_scene::medium::Atmosphere;
 use heliostat_scene::scene::Background;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -33,6 +38,10 @@ pub struct EnvironmentTable {
     pub intensity: Option<Placed<Color>>,
     /// Turn of the image in degrees about y; 0 if left out.
     pub rotation: Option<Placed<Number>>,
+    /// The name of a `[[medium]]` that fills the space around everything; none if left out.
+    pub medium: Option<Placed<String>>,
+    /// Radius in metres of the ball that it fills, where that is larger than the one around all that is finite.
+    pub medium_radius: Option<Placed<Positive>>,
     /// The command that makes the image, shown when it is missing.
     pub made_by: Option<Placed<String>>,
 }
@@ -58,6 +67,10 @@ impl EnvironmentTable {
             choice("image", self.image.as_ref()),
         ];
         at_most_one(&kinds)?;
+        if self.medium.is_none() {
+            let radius = choice("medium_radius", self.medium_radius.as_ref());
+            without_effect("without `medium`", &[radius])?;
+        }
         if self.image.is_none() {
             let image_keys =
                 [choice("rotation", self.rotation.as_ref()), choice("made_by", self.made_by.as_ref())];
@@ -82,6 +95,13 @@ impl EnvironmentTable {
             },
             (None, None) => Background::default(),
         }
+    }
+
+    /// What fills the space around everything.
+    pub(super) fn atmosphere(&self, media: &Names) -> Result<Option<Atmosphere>, Fault> {
+        let Some(name) = &self.medium else { return Ok(None) };
+        let medium = MediumId(media.find(name)? as u32);
+        Ok(Some(Atmosphere { medium, radius: self.medium_radius.as_ref().map(|radius| radius.f32()) }))
     }
 
     /// Factor of the background.

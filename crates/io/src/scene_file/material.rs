@@ -6,6 +6,8 @@
 //! name = "glass"
 //! opacity = 1                    # 0 lets rays straight through; with a texture, its alpha, else its luminance
 //! # cutoff = 0.5                 # the surface is whole from this coverage on, and not there below it
+//! # interior = "smoke"           # the [[medium]] that fills what the surface closes; with opacity = 0 there is no surface
+//! # priority = 1                 # of clear bodies that overlap the one with the highest is there; see below
 //! bump = { texture = "noise", strength = 0.01 }              # metres of white; or
 //! # normal_map = { texture = "bricks_normal", strength = 1 } # tangent space, +y up
 //!
@@ -22,10 +24,15 @@
 //! fresnel = false                # whether the angle shares transparency between refraction and reflection
 //! ```
 //!
+//! Light enters an `interior` where it is refracted or passes by the opacity. Clear bodies that touch are best drawn so that they
+//! overlap, each with its own `priority`: the glass over the water in it, the ice over both. Indices of refraction are then those
+//! against vacuum, whatever lies around.
+//!
 //! In place of `[material.phong]` a material may have `[material.standard]`, a [physically based surface](super::standard).
 
 use super::choice::{at_most_one, choice};
-use super::number::{Fraction, NonNegative, Number, Positive};
+use super::names::Names;
+use super::number::{Fraction, NonNegative, Number, Positive, Whole};
 use super::standard::StandardTable;
 use super::texturable::{Texturable, Textured};
 use super::value::Color;
@@ -33,7 +40,7 @@ use crate::document::{Fault, Placed};
 use heliostat_scene::material::{
     Channel, ColorInput, FloatInput, FresnelMode, Material, Phong, Relief, Surface,
 };
-use heliostat_scene::{Rgb, TextureId};
+use heliostat_scene::{MediumId, Rgb, TextureId};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -51,6 +58,10 @@ pub struct MaterialTable {
     pub bump: Option<Placed<BumpTable>>,
     /// A normal map that bends the shading normal.
     pub normal_map: Option<Placed<NormalMapTable>>,
+    /// The name of the `[[medium]]` that fills what the surface closes; none if left out.
+    pub interior: Option<Placed<String>>,
+    /// Of clear bodies that overlap the one with the highest is there; if left out, the one entered last.
+    pub priority: Option<Whole<0, 255>>,
     /// Phong's model with a mirror and a transparent part.
     pub phong: Option<Placed<PhongTable>>,
     /// A physically based surface.
@@ -122,7 +133,7 @@ pub(super) trait FindTexture {
 
 impl MaterialTable {
     /// The material of the scene.
-    pub(super) fn build(&self, textures: &mut impl FindTexture) -> Result<Material, Fault> {
+    pub(super) fn build(&self, textures: &mut impl FindTexture, media: &Names) -> Result<Material, Fault> {
         at_most_one(&[choice("bump", self.bump.as_ref()), choice("normal_map", self.normal_map.as_ref())])?;
         at_most_one(&[choice("phong", self.phong.as_ref()), choice("standard", self.standard.as_ref())])?;
         let surface = match (&self.phong, &self.standard) {
@@ -135,6 +146,13 @@ impl MaterialTable {
             opacity: float_input(self.opacity.as_ref(), Fraction::f32, one, TextureUse::Coverage, textures)?,
             relief: self.relief(textures)?,
             cutoff: self.cutoff.map(Fraction::f32),
+            interior: self
+                .interior
+                .as_ref()
+                .map(|name| media.find(name))
+                .transpose()?
+                .map(|i| MediumId(i as u32)),
+            priority: self.priority.map(Whole::u32),
             ..Material::of(self.name.to_string(), surface)
         })
     }

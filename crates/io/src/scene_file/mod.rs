@@ -32,6 +32,7 @@
 //! | `[camera]`, `[[camera]]` | [`camera`], [`focus`] | where from |
 //! | `[environment]` | [`environment`] | what is behind everything |
 //! | `[[texture]]` | [`texture`] | images and patterns |
+//! | `[[medium]]` | [`medium`] | what light flies through |
 //! | `[[material]]` | [`material`], [`standard`] | how surfaces answer light |
 //! | `[[mesh]]`, `[[model]]` | [`mesh`] | OBJ files |
 //! | `[[object]]` | [`object`], [`shape`], [`placement`], [`copies`] | what is there to see |
@@ -55,6 +56,7 @@ mod groups;
 mod hierarchy;
 pub mod light;
 pub mod material;
+pub mod medium;
 pub mod mesh;
 mod motion;
 mod names;
@@ -100,6 +102,8 @@ pub struct SceneFile {
     pub environment: environment::EnvironmentTable,
     /// Images and patterns.
     pub texture: Vec<Placed<texture::TextureTable>>,
+    /// What light flies through, is absorbed and scattered in.
+    pub medium: Vec<Placed<medium::MediumTable>>,
     /// How surfaces answer light.
     pub material: Vec<Placed<material::MaterialTable>>,
     /// OBJ files as one mesh each.
@@ -121,6 +125,7 @@ pub struct SceneFile {
 struct Directory {
     cameras: Names,
     textures: Names,
+    media: Names,
     materials: Names,
     meshes: Names,
     /// Objects, then models.
@@ -151,6 +156,7 @@ impl SceneFile {
         Ok(Directory {
             cameras: Names::new("camera", cameras)?,
             textures: Names::new("texture", self.texture.iter().map(|t| placed(&t.name)))?,
+            media: Names::new("medium", self.medium.iter().map(|m| placed(&m.name)))?,
             materials: Names::new("material", self.material.iter().map(|m| placed(&m.name)))?,
             meshes: Names::new("mesh", self.mesh.iter().map(|m| placed(&m.name)))?,
             things: Names::new("object", objects.chain(models))?,

@@ -89,6 +89,11 @@ number!(
     Fraction, "a number from 0 to 1", |v| (0.0..=1.0).contains(&v), { "type": "number", "minimum": 0, "maximum": 1 }
 );
 number!(
+    /// A number above -1 and below 1.
+    Asymmetry, "a number above -1 and below 1", |v| v > -1.0 && v < 1.0,
+    { "type": "number", "exclusiveMinimum": -1, "exclusiveMaximum": 1 }
+);
+number!(
     /// An angle from 0 to 180 degrees.
     HalfTurn, "an angle from 0 to 180 degrees", |v| (0.0..=180.0).contains(&v),
     { "type": "number", "minimum": 0, "maximum": 180 }

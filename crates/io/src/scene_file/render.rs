@@ -7,8 +7,8 @@
 //! height = 540
 //! # region = [0, 0, 480, 270]    # left, top, right, bottom: only these pixels
 //! samples = 16                   # camera rays per pixel
-//! integrator = "whitted"         # "path", "path_simple", "direct", "normals", "depth", "uv", "ambient_occlusion", "cost";
-//!                                # "path" where a material is physically based
+//! integrator = "whitted"         # "path", "volpath", "path_simple", "direct", "normals", "depth", "uv", "ambient_occlusion", "cost";
+//!                                # "path" where a material is physically based, "volpath" where there is a medium
 //! filter = "blackman_harris"     # "box", "tent", "gaussian", "mitchell", "lanczos"
 //! filter_radius = 1.5            # pixels; the default depends on the filter
 //! seed = 0
@@ -50,7 +50,8 @@ pub struct RenderTable {
     pub region: Option<Placed<[Whole<0, 65_535>; 4]>>,
     /// Camera rays per pixel; 16 if left out.
     pub samples: Option<Count>,
-    /// How radiance is found; `path` where a material is physically based, else `whitted`, if left out.
+    /// How radiance is found; `volpath` where there is a medium or light below surfaces, `path` where a
+    /// material is physically based, else `whitted`, if left out.
     pub integrator: Option<IntegratorName>,
     /// Reconstruction filter; `blackman_harris` if left out.
     pub filter: Option<FilterName>,
@@ -102,8 +103,10 @@ pub enum IntegratorName {
     Direct,
     /// All light, found by the scattering of surfaces alone: slow, to hold `path` against.
     PathSimple,
-    /// All light, physically based.
+    /// All light, physically based; media are not seen.
     Path,
+    /// All light, that in media and below surfaces with it.
+    Volpath,
 }
 
 /// Reconstruction filters.
@@ -155,7 +158,7 @@ const FILTERS: [(FilterName, Filter); 6] = [
 ];
 
 /// The names of the integrators and their counterparts in the scene.
-const INTEGRATORS: [(IntegratorName, IntegratorKind); 9] = [
+const INTEGRATORS: [(IntegratorName, IntegratorKind); 10] = [
     (IntegratorName::Whitted, IntegratorKind::Whitted),
     (IntegratorName::Normals, IntegratorKind::Normals),
     (IntegratorName::Depth, IntegratorKind::Depth),
@@ -165,6 +168,7 @@ const INTEGRATORS: [(IntegratorName, IntegratorKind); 9] = [
     (IntegratorName::Direct, IntegratorKind::Direct),
     (IntegratorName::PathSimple, IntegratorKind::PathSimple),
     (IntegratorName::Path, IntegratorKind::Path),
+    (IntegratorName::Volpath, IntegratorKind::VolPath),
 ];
 
 /// The other half of the pair that holds `from`.

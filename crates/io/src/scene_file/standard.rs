@@ -21,6 +21,10 @@
 //! dispersion = 0                  # 20 over the Abbe number
 //! diffuse_transmission = 0        # share of matte light that leaves on the other side
 //! diffuse_transmission_color = 1
+//! subsurface = 0                  # share of matte light that walks below the surface, which must close
+//! subsurface_color = 0.8          # colour of a thick body
+//! subsurface_radius = [0.01, 0.005, 0.0025] # metres that light flies between two scatterings
+//! subsurface_anisotropy = 0       # mean cosine of scattering, above -1 and below 1
 //! coat = 0                        # share under a clear coat
 //! coat_roughness = 0
 //! coat_ior = 1.5
@@ -35,7 +39,7 @@
 //! ```
 
 use super::material::{FindTexture, TextureUse, color_input, float_input};
-use super::number::{AtLeastOne, Fraction, NonNegative, Number, Positive};
+use super::number::{Asymmetry, AtLeastOne, Fraction, NonNegative, Number, Positive};
 use super::texturable::Texturable;
 use super::value::{Color, Splat};
 use crate::document::{Fault, Placed, Span};
@@ -84,6 +88,14 @@ pub struct StandardTable {
     pub diffuse_transmission: Option<Texturable<Fraction>>,
     /// Tint of that light; 1 if left out.
     pub diffuse_transmission_color: Option<Texturable<Color>>,
+    /// Share of the matte part whose light walks below the surface, which must close; 0 if left out.
+    pub subsurface: Option<Texturable<Fraction>>,
+    /// The colour of a thick body; 0.8 if left out.
+    pub subsurface_color: Option<Texturable<Color>>,
+    /// How far light flies between two scatterings, in metres; `[0.01, 0.005, 0.0025]` if left out.
+    pub subsurface_radius: Option<Splat<Positive, 3>>,
+    /// Mean cosine of the angle by which light is scattered there; 0 if left out.
+    pub subsurface_anisotropy: Option<Asymmetry>,
     /// Share of the surface under a clear coat; 0 if left out.
     pub coat: Option<Texturable<Fraction>>,
     /// Roughness of the coat; 0 if left out.
@@ -178,6 +190,7 @@ impl StandardTable {
             anisotropy: share(&self.anisotropy, normal.anisotropy)?,
             transmission: share(&self.transmission, normal.transmission)?,
             diffuse_transmission: share(&self.diffuse_transmission, normal.diffuse_transmission)?,
+            subsurface: share(&self.subsurface, normal.subsurface)?,
             coat: share(&self.coat, normal.coat)?,
             coat_roughness: share(&self.coat_roughness, normal.coat_roughness)?,
             sheen_roughness: share(&self.sheen_roughness, normal.sheen_roughness)?,
@@ -202,6 +215,7 @@ impl StandardTable {
             (&mut standard.base_color, &self.base_color),
             (&mut standard.specular_color, &self.specular_color),
             (&mut standard.diffuse_transmission_color, &self.diffuse_transmission_color),
+            (&mut standard.subsurface_color, &self.subsurface_color),
             (&mut standard.sheen_color, &self.sheen_color),
             (&mut standard.emission, &self.emission),
         ];
@@ -218,6 +232,10 @@ impl StandardTable {
         standard.anisotropy_rotation = turn.unwrap_or(standard.anisotropy_rotation);
         standard.thin_walled = self.thin_walled.unwrap_or(standard.thin_walled);
         standard.absorption = self.absorption.map_or(standard.absorption, |c| c.rgb());
+        let radius = self.subsurface_radius.map(|r| Vec3::from_array(r.values().map(Positive::f32)));
+        standard.subsurface_radius = radius.unwrap_or(standard.subsurface_radius);
+        let asymmetry = self.subsurface_anisotropy.map(Asymmetry::f32);
+        standard.subsurface_anisotropy = asymmetry.unwrap_or(standard.subsurface_anisotropy);
         standard.dispersion = self.dispersion.map_or(standard.dispersion, NonNegative::f32);
         standard.coat_ior = self.coat_ior.map_or(standard.coat_ior, AtLeastOne::f32);
         let film_ior = &mut standard.thin_film.ior;

@@ -98,7 +98,7 @@ impl LoneModel {
         let integrator =
             if file.render.integrator.is_some() { settings.integrator } else { scene.natural_integrator() };
         // What surfaces and sky send on stands for ambient light where paths follow it.
-        if matches!(integrator, IntegratorKind::Direct | IntegratorKind::PathSimple | IntegratorKind::Path) {
+        if integrator.traces_paths() {
             scene.lights.retain(|light| light.kind != LightKind::Ambient);
         }
         let settings = RenderSettings { camera, transparent_shadows, integrator, ..settings };

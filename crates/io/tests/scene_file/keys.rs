@@ -10,6 +10,7 @@ macro_rules! textured {
     ($rest:literal) => {
         concat!(
             "camera = {}\n\
+             medium = [{ name = 'fog', scattering = 1 }]\n\
              texture = [{ name = 't', checker = { even = 0, odd = 1 } }, { name = 'u', image = 'a.png' }]\n",
             $rest
         )
@@ -43,10 +44,12 @@ fn template(table: &str) -> &'static str {
         "CameraTable" => "object = [{ name = 'o', plane = {} }]\n[camera]\n@",
         "FocusTable" => "object = [{ sphere = { radius = 2 }, translate = [0, 0, -9] }]\n[camera.focus]\n@",
         "DepthLimitsTable" => "camera = {}\n[render.depth_limits]\n@",
-        "EnvironmentTable" => "camera = {}\n[environment]\n@",
+        "EnvironmentTable" => "camera = {}\nmedium = [{ name = 'fog', scattering = 1 }]\n[environment]\n@",
         "GradientTable" => "camera = {}\n[environment.gradient]\n@",
         "TextureTable" => "camera = {}\n[[texture]]\n@",
         "CheckerTable" => "camera = {}\n[[texture]]\nname = 't'\n[texture.checker]\n@",
+        "MediumTable" => "camera = {}\n[[medium]]\n@",
+        "GridTable" => "camera = {}\n[[medium]]\nname = 'm'\nscattering = 1\n[medium.grid]\n@",
         "MaterialTable" => textured!("[[material]]\n@"),
         "PhongTable" => textured!("[[material]]\nname = 'm'\n[material.phong]\n@"),
         "StandardTable" => textured!("[[material]]\nname = 'm'\n[material.standard]\n@"),
@@ -99,6 +102,9 @@ fn outcome(text: &str) -> String {
     folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\ng one\nf 1 2 3\ng two\nf 1 3 4\n");
     folder.write("c.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n");
     folder.write("b.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
+    for (name, value) in [("a.vol", 1.0), ("b.vol", 2.0)] {
+        folder.write(name, volume(value));
+    }
     for (name, value) in [("a.png", 50_u8), ("b.png", 200)] {
         let path = folder.write(name, "");
         image::RgbImage::from_pixel(2, 1, image::Rgb([value; 3])).save(&path).unwrap();
@@ -108,6 +114,14 @@ fn outcome(text: &str) -> String {
     assert_eq!(shot.warnings, [], "{text}");
     let told = (source.frames(), source.frame_rate(), source.camera_names());
     format!("{told:?} {:?} {:?} {:?} {:?}", shot.scene, shot.settings, shot.view, shot.output)
+}
+
+/// A volume file of one cell.
+fn volume(density: f32) -> Vec<u8> {
+    let mut bytes = b"VOL\x03".to_vec();
+    [1, 1, 1, 1, 1].iter().for_each(|n: &i32| bytes.extend(n.to_le_bytes()));
+    [0.0, 0.0, 0.0, 1.0, 1.0, 1.0, density].iter().for_each(|v: &f32| bytes.extend(v.to_le_bytes()));
+    bytes
 }
 
 #[test]

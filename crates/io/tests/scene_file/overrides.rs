@@ -112,7 +112,7 @@ fn wrong_overrides_name_the_flag_and_the_place() {
         (
             "zzz.a",
             "3",
-            "--set:1:1: unknown key `zzz`; known: `render`, `output`, `time`, `camera`, `environment`, `texture`, `material`, `mesh`, `model`, `object`, `group`, `light`, `animation`",
+            "--set:1:1: unknown key `zzz`; known: `render`, `output`, `time`, `camera`, `environment`, `texture`, `medium`, `material`, `mesh`, `model`, `object`, `group`, `light`, `animation`",
         ),
     ];
     for (path, value, expected) in cases {

@@ -161,7 +161,7 @@ fn settings_survive_being_written_and_read() {
         max_depth: 0,
         min_weight: 1.0e-7,
         transparent_shadows: true,
-        depth_limits: DepthLimits { total: 9, diffuse: 0, glossy: 3, transmission: 1024 },
+        depth_limits: DepthLimits { total: 9, diffuse: 0, glossy: 3, ..DepthLimits::default() },
         clamp_indirect: Some(7.5),
         ao_samples: 5,
         ao_distance: 1.0e5,

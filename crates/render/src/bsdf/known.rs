@@ -1,6 +1,6 @@
 //! Surfaces that are the same everywhere, worked out once.
 
-use super::Bsdf;
+use super::{Bsdf, Surroundings};
 use crate::material_eval::MaterialEval;
 use crate::texture_eval::TexturePoint;
 use glam::{Vec2, Vec3};
@@ -11,9 +11,10 @@ use heliostat_scene::{Material, MaterialId, Scene};
 pub(crate) struct KnownBsdfs(Vec<Option<[Bsdf; 2]>>);
 
 impl KnownBsdfs {
-    /// Those of a scene.
-    pub(crate) fn new(scene: &Scene) -> Self {
-        Self(scene.materials.iter().map(|material| is_even(material).then(|| sides(material))).collect())
+    /// Those of a scene in open space; `walks` as in [`Surroundings`].
+    pub(crate) fn new(scene: &Scene, walks: bool) -> Self {
+        let sides = |material| is_even(material).then(|| sides(material, walks));
+        Self(scene.materials.iter().map(sides).collect())
     }
 
     /// The surface of a material where no vertex has a colour, met from outside if the ray `enters`.
@@ -31,8 +32,9 @@ fn is_even(material: &Material) -> bool {
     textures == 0
 }
 
-fn sides(material: &Material) -> [Bsdf; 2] {
+fn sides(material: &Material, walks: bool) -> [Bsdf; 2] {
     let at = TexturePoint { uv: Vec2::ZERO, uv1: Vec2::ZERO, local: Vec3::ZERO, coverage: 1.0 };
     let eval = MaterialEval { textures: &[], at };
-    [false, true].map(|enters| Bsdf::new(&material.surface, &eval, None, enters, Vec3::Z))
+    let around = Surroundings { walks, ..Surroundings::OPEN };
+    [false, true].map(|enters| Bsdf::new(&material.surface, &eval, None, enters, Vec3::Z, around))
 }

@@ -42,6 +42,22 @@ pub(crate) enum Event {
     Glossy,
     /// Refracted, or let through by a thin wall.
     Transmission,
+    /// Let in to walk below the surface: where it comes out is not known yet.
+    Subsurface,
+}
+
+/// What a surface has around it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Surroundings {
+    /// Index of refraction of what it lies in, 1 for vacuum.
+    pub(crate) ior: f32,
+    /// Whether light is followed below surfaces; else matter that lets it in is taken for matte.
+    pub(crate) walks: bool,
+}
+
+impl Surroundings {
+    /// Open space, and light that stays above surfaces.
+    pub(crate) const OPEN: Self = Self { ior: 1.0, walks: false };
 }
 
 /// A direction drawn for a viewer.
@@ -61,6 +77,13 @@ impl BsdfSample {
     /// Whether no other way than sampling finds the direction.
     pub(crate) fn is_delta(&self) -> bool {
         self.pdf == f32::INFINITY
+    }
+}
+
+impl Bsdf {
+    /// One that scatters all light evenly to its side: what comes out from below a surface.
+    pub(crate) fn white() -> Self {
+        Self::Phong(PhongBsdf::white())
     }
 }
 
@@ -87,14 +110,19 @@ impl Bsdf {
         vertex_color: Option<Rgb>,
         enters: bool,
         coat_normal: Vec3,
+        around: Surroundings,
     ) -> Self {
         match surface {
             Surface::Standard(standard) => {
-                let point = eval.standard(standard, vertex_color);
+                let mut point = eval.standard(standard, vertex_color);
+                point.ior /= around.ior;
+                point.walks = around.walks && enters;
                 Self::Standard(StandardBsdf::new(&point, enters, coat_normal))
             }
             Surface::Phong(_) | Surface::Unlit(_) => {
-                Self::Phong(PhongBsdf::new(&eval.phong(&surface.phong(), vertex_color), enters))
+                let mut point = eval.phong(&surface.phong(), vertex_color);
+                point.ior /= around.ior;
+                Self::Phong(PhongBsdf::new(&point, enters))
             }
         }
     }

@@ -67,6 +67,20 @@ impl PhongBsdf {
         }
     }
 
+    /// A white matte surface.
+    pub(crate) fn white() -> Self {
+        Self {
+            diffuse: Rgb::ONE,
+            specular: Rgb::ZERO,
+            shininess: 0.0,
+            mirror: Rgb::ZERO,
+            transparency: Rgb::ZERO,
+            eta: 1.0,
+            fresnel: FresnelMode::Off,
+            odds: [1.0, 0.0],
+        }
+    }
+
     #[inline]
     pub(crate) fn scatters(&self) -> bool {
         self.odds[0] + self.odds[1] > 0.0

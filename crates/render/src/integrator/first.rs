@@ -21,18 +21,27 @@ impl Sample {
 
 /// The first surface along a camera ray that covers at least half.
 pub(super) fn first_hit(world: &World<'_>, ray: &CameraRay) -> Option<(SurfaceHit, FirstHit)> {
-    let mut passing = PassingRay::free(ray.ray);
+    first_from(world, PassingRay::free(ray.ray), ray.time)
+}
+
+/// The same for a camera ray that has passed things already.
+pub(super) fn first_from(
+    world: &World<'_>,
+    mut passing: PassingRay,
+    time: f32,
+) -> Option<(SurfaceHit, FirstHit)> {
+    let dir = passing.ray.dir;
     loop {
-        let surface = world.seen(&passing, ray.time, true)?;
+        let surface = world.seen(&passing, time, true)?;
         let (object, material) = match surface.owner {
             Owner::Object { index, material } => (index, material),
-            Owner::Light(_) => return Some((surface, on_light(&surface, ray.ray.dir))),
+            Owner::Light(_) => return Some((surface, on_light(&surface, dir))),
         };
-        let point = ShadingPoint::new(world, &surface, material, ray.ray.dir, ray.time);
+        let point = ShadingPoint::new(world, &surface, material, dir, time);
         if point.opacity >= COVERING {
             return Some((surface, point.first_hit(object, material)));
         }
-        passing = passing.behind(&surface, ray.ray.dir);
+        passing = passing.behind(&surface, dir);
     }
 }
 

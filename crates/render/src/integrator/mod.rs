@@ -13,6 +13,7 @@ mod normals;
 mod path;
 mod path_simple;
 mod uv;
+mod volpath;
 mod whitted;
 
 pub use ambient_occlusion::AmbientOcclusion;
@@ -23,6 +24,7 @@ pub use normals::Normals;
 pub use path::Path;
 pub use path_simple::PathSimple;
 pub use uv::Uv;
+pub use volpath::VolPath;
 pub use whitted::Whitted;
 
 use crate::counters::RayCounters;
@@ -107,5 +109,6 @@ pub fn create(settings: &RenderSettings) -> Box<dyn Integrator> {
         IntegratorKind::Direct => Box::new(Direct::new(settings)),
         IntegratorKind::PathSimple => Box::new(PathSimple::new(settings)),
         IntegratorKind::Path => Box::new(Path::new(settings)),
+        IntegratorKind::VolPath => Box::new(VolPath::new(settings)),
     }
 }

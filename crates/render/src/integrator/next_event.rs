@@ -32,7 +32,7 @@ pub(super) fn left_of(absorption: Rgb, way: f32) -> Rgb {
 pub(super) fn from_lights(
     world: &World<'_>,
     point: &PathPoint<'_>,
-    inside: Option<Inside>,
+    inside: Option<&Inside>,
     (choice, u): (f32, Vec2),
     weight: impl Fn(&LightSample, f32) -> f32,
     counters: &mut RayCounters,

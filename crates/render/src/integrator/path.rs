@@ -13,20 +13,21 @@ use super::next_event::{from_lights, heuristic, left_of};
 use super::{CameraRay, FirstHit, Integrator, Sample};
 use crate::bsdf::Event;
 use crate::counters::RayCounters;
+use crate::interiors::Interiors;
 use crate::light::{self, Lookout};
 use crate::path_point::{Covering, Onward, PathPoint};
 use crate::sampler::Sampler;
-use crate::world::{Inside, Owner, PassingRay, SurfaceHit, World};
+use crate::world::{Owner, PassingRay, SurfaceHit, World};
 use heliostat_scene::settings::DepthLimits;
 use heliostat_scene::{RenderSettings, Rgb};
 use std::ops::ControlFlow;
 
 /// After so many scatterings paths end by chance. Sooner, glass and metal in a room got more noise for their time.
-const CERTAIN: u32 = 8;
+pub(super) const CERTAIN: u32 = 8;
 /// The largest probability with which such a path goes on.
-const MOST_CERTAIN: f32 = 0.95;
+pub(super) const MOST_CERTAIN: f32 = 0.95;
 /// The branch of the random numbers that decide about holes.
-const HOLES: u32 = 0;
+pub(super) const HOLES: u32 = 0;
 
 /// Paths of light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,8 +41,8 @@ pub struct Path {
 #[derive(Clone, Copy, Debug)]
 struct Way {
     passing: PassingRay,
-    /// The glass that it runs through.
-    inside: Option<Inside>,
+    /// What it runs through.
+    around: Interiors,
     /// What radiance from here is multiplied by.
     weight: Rgb,
     /// Where light was scattered last, and with what density it was sent here; `None` where only camera, mirrors and glass
@@ -69,11 +70,12 @@ struct Found {
 
 /// Scatterings so far.
 #[derive(Clone, Copy, Debug, Default)]
-struct Depth {
-    total: u32,
+pub(super) struct Depth {
+    pub(super) total: u32,
     diffuse: u32,
     glossy: u32,
     transmission: u32,
+    volume: u32,
 }
 
 impl Path {
@@ -98,7 +100,7 @@ impl Integrator for Path {
         let mut found = Found::default();
         let mut way = Way {
             passing: PassingRay::free(ray.ray),
-            inside: None,
+            around: world.around(ray.ray.origin, ray.time),
             weight: Rgb::ONE,
             scattered: None,
             after: None,
@@ -127,7 +129,7 @@ impl Path {
         counters: &mut RayCounters,
     ) -> ControlFlow<()> {
         // Find what the ray meets first.
-        let Some(surface) = &world.seen_inside(&way.passing, way.inside, time, way.from_camera) else {
+        let Some(surface) = &world.seen_inside(&way.passing, way.around.last(), time, way.from_camera) else {
             self.leave(world, way, found);
             return ControlFlow::Break(());
         };
@@ -148,8 +150,11 @@ impl Path {
         let covering = Covering::new(world, surface, material);
         let opacity = covering.opacity();
         if opacity < 1.0 && draws.fork(HOLES).next_1d() >= opacity {
-            counters.refraction += 1;
-            way.passing = way.passing.behind(surface, dir);
+            way.pass(&covering, surface, counters);
+            return ControlFlow::Continue(());
+        }
+        if covering.is_hidden(surface, &way.around) {
+            way.pass(&covering, surface, counters);
             return ControlFlow::Continue(());
         }
 
@@ -163,7 +168,7 @@ impl Path {
             return ControlFlow::Break(());
         }
         let mut room = None;
-        let point = PathPoint::new(world, &covering, surface, dir, time, &mut room);
+        let point = PathPoint::new(world, &covering, surface, dir, time, &way.around, &mut room);
         found.first.get_or_insert_with(|| point.first_hit(object, material));
 
         // Ask a light, and send the path on.
@@ -171,7 +176,8 @@ impl Path {
         if point.scatters() {
             let weight = |light: &light::LightSample, pdf: f32| heuristic(light.pdf, pdf);
             let by_chance = (choices.x, draws.next_2d());
-            let light = way.weight * from_lights(world, &point, way.inside, by_chance, weight, counters);
+            let light =
+                way.weight * from_lights(world, &point, way.around.ruling(), by_chance, weight, counters);
             found.radiance += self.clamped(light, way.depth.total);
         }
         let onward = point.sample(&way.passing, choices.y, draws.next_2d());
@@ -220,17 +226,26 @@ impl Way {
     /// Weakens it by the glass that it came through: the one that it is in, or one that it leaves and was not known to be
     /// in, because the camera stands in it, or one thing in another.
     fn absorb(&mut self, left: Option<Rgb>, surface: &SurfaceHit) {
-        let absorption = self.inside.map(|inside| inside.absorption).or(left);
+        let absorption = self.around.ruling().map(|inside| inside.absorption).or(left);
         if let Some(absorption) = absorption {
             self.weight *= left_of(absorption, surface.hit.t * self.passing.ray.dir.length());
         }
+    }
+
+    /// Goes on as if there were no surface.
+    fn pass(&mut self, covering: &Covering<'_>, surface: &SurfaceHit, counters: &mut RayCounters) {
+        counters.refraction += 1;
+        let dir = self.passing.ray.dir;
+        self.absorb(None, surface);
+        self.passing = self.passing.behind(surface, dir);
+        self.around.change(&covering.straight_change(surface, dir));
     }
 
     /// Sends it on.
     fn go_on(&mut self, onward: &Onward, point: &PathPoint<'_>, limits: &DepthLimits) {
         let sample = &onward.sample;
         self.passing = onward.passing;
-        self.inside = onward.inside.unwrap_or(self.inside);
+        self.around.change(&onward.change);
         self.weight *= sample.weight;
         self.after = Some(sample.event);
         self.from_camera = false;
@@ -258,14 +273,25 @@ impl Way {
 impl Depth {
     /// Counts a scattering; whether that was one too many.
     #[inline]
-    fn grow(&mut self, event: Event, limits: &DepthLimits) -> bool {
+    pub(super) fn grow(&mut self, event: Event, limits: &DepthLimits) -> bool {
         let (count, limit) = match event {
-            Event::Diffuse => (&mut self.diffuse, limits.diffuse),
+            Event::Diffuse | Event::Subsurface => (&mut self.diffuse, limits.diffuse),
             Event::Glossy => (&mut self.glossy, limits.glossy),
             Event::Transmission => (&mut self.transmission, limits.transmission),
         };
         *count += 1;
         self.total += 1;
         *count > limit || self.total > limits.total
+    }
+
+    /// Counts a scattering by a medium; whether that was one too many.
+    pub(super) fn grow_volume(&mut self, limits: &DepthLimits) -> bool {
+        self.volume += 1;
+        self.volume > limits.volume
+    }
+
+    /// Scatterings of all kinds.
+    pub(super) fn all(&self) -> u32 {
+        self.total + self.volume
     }
 }

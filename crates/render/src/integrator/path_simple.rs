@@ -17,10 +17,11 @@ use super::next_event::{from_lights, left_of};
 use super::{CameraRay, FirstHit, Integrator, Sample};
 use crate::bsdf::Event;
 use crate::counters::RayCounters;
+use crate::interiors::Interiors;
 use crate::light::{self, Lookout};
 use crate::path_point::{Covering, PathPoint};
 use crate::sampler::Sampler;
-use crate::world::{Inside, Owner, PassingRay, World};
+use crate::world::{Owner, PassingRay, SurfaceHit, World};
 use heliostat_scene::{RenderSettings, Rgb};
 
 /// From so many scatterings on paths end by chance.
@@ -38,7 +39,7 @@ pub struct PathSimple {
 #[derive(Clone, Copy, Debug)]
 struct Leg {
     passing: PassingRay,
-    inside: Option<Inside>,
+    around: Interiors,
     /// Scatterings on the way here.
     depth: u32,
     /// From where lights were asked; `None` where nothing but mirrors and glass lies between here and the camera.
@@ -81,7 +82,7 @@ impl Integrator for PathSimple {
         let mut walk = Walk { world, time, counters, transparent_background, first, is_through };
         let radiance = walk.radiance(Leg {
             passing: PassingRay::free(ray.ray),
-            inside: None,
+            around: world.around(ray.ray.origin, ray.time),
             depth: 0,
             asked: None,
             from_camera: true,
@@ -97,7 +98,8 @@ impl Walk<'_, '_> {
     /// The radiance that a leg sees.
     fn radiance(&mut self, mut leg: Leg) -> Rgb {
         let world = self.world;
-        let Some(surface) = &world.seen_inside(&leg.passing, leg.inside, self.time, leg.from_camera) else {
+        let Some(surface) = &world.seen_inside(&leg.passing, leg.around.last(), self.time, leg.from_camera)
+        else {
             return self.beyond(&leg);
         };
         let dir = leg.passing.ray.dir;
@@ -106,24 +108,25 @@ impl Walk<'_, '_> {
             Owner::Light(light) => {
                 self.first.get_or_insert_with(|| on_light(surface, dir));
                 let shine = light::seen(&world.scene().lights[light as usize], surface.hit.at.ng, dir);
-                return if leg.has_asked_for(world, surface) { Rgb::ZERO } else { shine };
+                let left = leg.left(None, surface);
+                return if leg.has_asked_for(world, surface) { Rgb::ZERO } else { left * shine };
             }
         };
 
         // Holes let the ray through by chance.
         let covering = Covering::new(world, surface, material);
-        if leg.sampler.next_1d() >= covering.opacity() {
+        let is_hole = leg.sampler.next_1d() >= covering.opacity();
+        if is_hole || covering.is_hidden(surface, &leg.around) {
             self.counters.refraction += 1;
+            let left = leg.left(None, surface);
             let passing = leg.passing.behind(surface, dir);
-            return self.radiance(Leg { passing, sampler: leg.sampler.fork(0), ..leg });
+            leg.around.change(&covering.straight_change(surface, dir));
+            return left * self.radiance(Leg { passing, sampler: leg.sampler.fork(0), ..leg });
         }
         let mut room = None;
-        let point = PathPoint::new(world, &covering, surface, dir, self.time, &mut room);
+        let point = PathPoint::new(world, &covering, surface, dir, self.time, &leg.around, &mut room);
         self.first.get_or_insert_with(|| point.first_hit(object, material));
-        let absorption = match leg.inside {
-            Some(inside) => inside.absorption,
-            None => covering.left_absorption(surface, dir).unwrap_or(Rgb::ZERO),
-        };
+        let left = leg.left(covering.left_absorption(surface, dir), surface);
 
         let mut sum = Rgb::ZERO;
         if !leg.has_asked_for(world, surface) {
@@ -134,9 +137,9 @@ impl Walk<'_, '_> {
         }
         let by_chance = (leg.sampler.next_1d(), leg.sampler.next_2d());
         let unmet = |light: &light::LightSample, _: f32| f32::from(u8::from(light.pdf == f32::INFINITY));
-        sum += from_lights(world, &point, leg.inside, by_chance, unmet, self.counters);
+        sum += from_lights(world, &point, leg.around.ruling(), by_chance, unmet, self.counters);
         sum += self.sent_on(&point, leg);
-        left_of(absorption, surface.hit.t * dir.length()) * sum
+        left * sum
     }
 
     /// What a point sends on of the light from a direction that it draws.
@@ -149,10 +152,12 @@ impl Walk<'_, '_> {
             return Rgb::ZERO;
         }
         onward.count(self.counters);
+        let mut around = leg.around;
+        around.change(&onward.change);
         let asked = if onward.sample.is_delta() { None } else { Some(point.lookout()) };
         let radiance = self.radiance(Leg {
             passing: onward.passing,
-            inside: onward.inside.unwrap_or(leg.inside),
+            around,
             depth: leg.depth + 1,
             asked: if onward.is_straight { leg.asked } else { asked },
             from_camera: false,
@@ -179,8 +184,15 @@ impl Walk<'_, '_> {
 }
 
 impl Leg {
+    /// The share of light that is left of the way to a surface: what it runs through absorbs, or what it leaves and was not known
+    /// to be in.
+    fn left(&self, left: Option<Rgb>, surface: &SurfaceHit) -> Rgb {
+        let absorption = self.around.ruling().map(|inside| inside.absorption).or(left);
+        left_of(absorption.unwrap_or(Rgb::ZERO), surface.hit.t * self.passing.ray.dir.length())
+    }
+
     /// Whether the light of that surface was asked for where the ray comes from.
-    fn has_asked_for(&self, world: &World<'_>, surface: &crate::world::SurfaceHit) -> bool {
+    fn has_asked_for(&self, world: &World<'_>, surface: &SurfaceHit) -> bool {
         self.asked.is_some_and(|from| world.light_table().density(&from, surface) == f32::INFINITY)
     }
 }

@@ -108,7 +108,7 @@ impl Whitted {
         counters: &mut RayCounters,
     ) {
         // Find what the ray meets first, and colour what comes through glass.
-        let seen = world.seen_inside(&branch.passing, branch.inside, time, branch.from_camera);
+        let seen = world.seen_inside(&branch.passing, branch.inside.as_ref(), time, branch.from_camera);
         let Some(surface) = &seen else {
             self.leave(world, branch, found);
             return;
@@ -188,11 +188,10 @@ impl Whitted {
                 passing: branch.passing.behind(surface, dir),
                 weight: branch.weight * weight,
                 depth: branch.depth + 1,
-                inside: surface.thing().filter(|_| point.enters).map(|thing| Inside {
-                    thing,
-                    absorption: point.phong.absorption,
-                    bends: true,
-                }),
+                inside: surface
+                    .thing()
+                    .filter(|_| point.enters)
+                    .map(|thing| Inside::of(thing, point.material)),
                 from_camera: false,
                 sampler: branch.sampler.fork(GLASS_BRANCH),
                 ..*branch

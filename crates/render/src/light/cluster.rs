@@ -109,7 +109,7 @@ pub(super) struct Beam {
 }
 
 impl Beam {
-    /// About the irradiance at `p` on a surface with normal `n`; 0 only where no light comes from here, at least to either side
+    /// About the irradiance at `p` on a surface with normal `n`, which is 0 in a medium; 0 only where no light comes from here, at least to either side
     /// of the surface.
     #[inline]
     pub(super) fn importance(&self, p: Vec3, n: Vec3) -> f32 {
@@ -133,7 +133,9 @@ impl Beam {
         if leaving.cos <= self.least_cos {
             return 0.0;
         }
-        let arriving = Angle::of_cos(n.dot(way).abs()).less(seen);
+        // A point of a medium has no normal, and takes light from anywhere.
+        let facing = if n == Vec3::ZERO { 1.0 } else { n.dot(way).abs() };
+        let arriving = Angle::of_cos(facing).less(seen);
         strength * leaving.cos.max(0.0) * arriving.cos.max(0.0)
     }
 }

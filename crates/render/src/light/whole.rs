@@ -10,9 +10,9 @@ use heliostat_scene::Rgb;
 /// From where light is looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Lookout {
-    /// A point of a surface.
+    /// A point of a surface, or in a medium.
     pub(crate) p: Vec3,
-    /// The normal there, on the viewer's side.
+    /// The normal there, on the viewer's side; 0 in a medium.
     pub(crate) n: Vec3,
     /// Over the shutter.
     pub(crate) time: f32,

@@ -2,6 +2,7 @@
 
 use super::MaterialEval;
 use crate::bsdf::StandardPoint;
+use crate::medium::PreparedMedium;
 use glam::{Vec2, Vec4Swizzles};
 use heliostat_scene::Rgb;
 use heliostat_scene::material::{ColorInput, FloatInput, Standard};
@@ -28,6 +29,11 @@ impl MaterialEval<'_> {
             dispersion: standard.dispersion.max(0.0),
             diffuse_transmission: share(&standard.diffuse_transmission),
             diffuse_transmission_color: color(&standard.diffuse_transmission_color),
+            subsurface: share(&standard.subsurface),
+            subsurface_color: unit_color(
+                vertex_color.unwrap_or(Rgb::ONE) * self.color(&standard.subsurface_color),
+            ),
+            walks: false,
             coat: share(&standard.coat),
             coat_roughness: share(&standard.coat_roughness),
             coat_ior: standard.coat_ior.max(1.0),
@@ -37,6 +43,19 @@ impl MaterialEval<'_> {
             film_ior: film.ior.max(1.0),
             film_thickness: self.film_thickness(standard),
         }
+    }
+
+    /// What fills the body below the surface, by the colour that it has here.
+    ///
+    /// # Source
+    /// Kulla, Conty, "Revisiting Physically Based Shading at Imageworks", 2017; Academy Software Foundation, "`OpenPBR`
+    /// Surface 1.1", "Subsurface".
+    pub(crate) fn below(&self, standard: &Standard, vertex_color: Option<Rgb>) -> PreparedMedium<'static> {
+        let tint = vertex_color.unwrap_or(Rgb::ONE);
+        let color = unit_color(tint * self.color(&standard.subsurface_color));
+        let (extinction, g) = (standard.subsurface_radius.recip(), standard.subsurface_anisotropy);
+        let albedo = color.map(|color| single_albedo(color, g));
+        PreparedMedium::even(albedo * extinction, extinction, g)
     }
 
     /// Thickness of the film in nanometres: a texture spreads it over the whole range, a number is its upper end.
@@ -61,6 +80,38 @@ fn within(x: f32, least: f32, most: f32) -> f32 {
     if x.is_nan() { least } else { x.clamp(least, most) }
 }
 
+/// The share that each scattering keeps in a thick body that sends back the share `color` of even light.
+///
+/// # Source
+/// Kulla, Conty, 2017: an inversion of van de Hulst's `color = (1 - s) (1 - 0.139 s) / (1 + 1.17 s)`, where `s^2` is
+/// `(1 - albedo) / (1 - albedo g)`.
+fn single_albedo(color: f32, g: f32) -> f32 {
+    let root = (9.592_17 + color * (41.680_8 + 17.712_6 * color)).sqrt();
+    let s = (4.097_12 + 4.208_63 * color - root).clamp(0.0, 1.0);
+    let square = s * s;
+    // White keeps all, whatever the rounding of the fit.
+    if color >= 1.0 { 1.0 } else { (1.0 - square) / (1.0 - g * square) }
+}
+
 fn unit_color(color: Rgb) -> Rgb {
     color.map(|x| within(x, 0.0, 1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_inversion_gives_the_colour_back() {
+        for i in 0..=100 {
+            let color = 0.01 * i as f32;
+            for g in [-0.5, 0.0, 0.8] {
+                let albedo = single_albedo(color, g);
+                assert!((0.0..=1.0).contains(&albedo), "{albedo}");
+                let s = ((1.0 - albedo) / (1.0 - albedo * g)).sqrt();
+                let back = (1.0 - s) * (1.0 - 0.139 * s) / (1.0 + 1.17 * s);
+                assert!((back - color).abs() < 5e-3, "{color}: {back}");
+            }
+        }
+    }
 }

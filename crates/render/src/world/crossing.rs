@@ -10,7 +10,7 @@ use super::thing::Thing;
 use glam::Vec3;
 use heliostat_geometry::error_bound::offset_origin;
 use heliostat_geometry::{Ray, SurfacePoint};
-use heliostat_scene::Rgb;
+use heliostat_scene::{Material, MediumId, Rgb};
 
 /// So many surfaces may lie in one place; of more, the ray leaves all behind at once.
 const MOST: usize = 4;
@@ -49,6 +49,28 @@ pub(crate) struct Inside {
     pub(crate) absorption: Rgb,
     /// Whether light that passes its surface is bent: no shadow ray leaves it then.
     pub(crate) bends: bool,
+    /// Its index of refraction, and which of several bodies there is where they overlap.
+    pub(crate) ior: f32,
+    pub(crate) priority: Option<u32>,
+    /// The medium that fills it.
+    pub(crate) interior: Option<MediumId>,
+}
+
+impl Inside {
+    /// The inside of a thing behind a surface of that material.
+    pub(crate) fn of(thing: Thing, material: &Material) -> Self {
+        let surface = &material.surface;
+        // What only has a medium inside absorbs nothing by itself.
+        let absorption = if surface.refracts() { surface.absorption() } else { Rgb::ZERO };
+        Self {
+            thing,
+            absorption,
+            bends: surface.refracts() && !surface.passes_straight(),
+            ior: if surface.refracts() { surface.ior() } else { 1.0 },
+            priority: material.priority,
+            interior: material.interior,
+        }
+    }
 }
 
 impl PassingRay {

@@ -2,7 +2,7 @@
 
 use super::blocker::Chords;
 use super::body::{Body, SurfaceAt};
-use crate::bsdf::Bsdf;
+use crate::bsdf::{Bsdf, Surroundings};
 use crate::lanes::{LANES, Mask, Vec3Lanes, holds, lanes_of, widest};
 use crate::material_eval::MaterialEval;
 use crate::normals::Normals;
@@ -124,7 +124,8 @@ impl Filter<'_> {
             return (open, Rgb::ZERO);
         }
         let normals = Normals::new(&eval, material.relief, &surface.hit, ray.dir);
-        let bsdf = Bsdf::new(&material.surface, &eval, surface.color, normals.enters, Vec3::Z);
+        let around = Surroundings::OPEN;
+        let bsdf = Bsdf::new(&material.surface, &eval, surface.color, normals.enters, Vec3::Z, around);
         let cos = normals.ns.dot(normals.view);
         let view = Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
         (open + opacity * bsdf.seen_from(view).straight(), material.surface.absorption())

@@ -24,6 +24,7 @@ mod solid;
 mod terminator;
 mod thing;
 mod trees;
+mod volumes;
 
 use crossing::coincide;
 pub(crate) use crossing::{Inside, PassingRay};
@@ -36,6 +37,7 @@ pub(crate) use place::{Now, Place};
 pub(crate) use shadow_rays::ShadowRays;
 pub(crate) use thing::Thing;
 pub use trees::TreeCache;
+pub(crate) use volumes::Matter;
 
 use crate::bsdf::KnownBsdfs;
 use crate::light::{LightTable, PreparedLight, Use};
@@ -45,6 +47,7 @@ use group::{Groups, Look};
 use heliostat_geometry::{Aabb, Ray};
 use heliostat_index::{BspTree, MeshTree, TraversalCost};
 use heliostat_scene::object::Geometry;
+use heliostat_scene::settings::IntegratorKind;
 use heliostat_scene::{GroupId, Object, RenderSettings, Rgb, Scene};
 use kinds::{Shadow, parameters_of, shadow_of, visible_lights};
 use level::Level;
@@ -52,6 +55,7 @@ use solid::{Content, Solid, Stock};
 use std::cell::Cell;
 use std::sync::Arc;
 use thing::{Met, Standing};
+use volumes::Volumes;
 
 /// A scene made ready for rays.
 #[derive(Debug)]
@@ -81,6 +85,9 @@ pub struct World<'s> {
     clear: Clear,
     /// Whether all objects are seen by camera rays.
     all_visible: bool,
+    /// Whether light is followed below surfaces.
+    walks: bool,
+    volumes: Volumes<'s>,
 }
 
 impl<'s> World<'s> {
@@ -118,12 +125,15 @@ impl<'s> World<'s> {
         let parameters = scene.objects.iter().map(|object| parameters_of(scene, object, &settings.layers));
         let parameters = parameters.chain(shining.iter().map(|_| Parameters::Used)).collect();
         let level = Level::new(&solids).map_err(|source| error::objects(scene, source))?;
+        let walks = settings.integrator == IntegratorKind::VolPath;
         let candidates = |is: fn(&Shadow) -> bool| level.candidates(|i| is(&shadows[i as usize]));
         Ok(Self {
             casters: candidates(|shadow| *shadow != Shadow::NONE),
             stoppers: candidates(|shadow| shadow.stops),
             filters: candidates(|shadow| shadow.filters),
-            known_bsdfs: KnownBsdfs::new(scene),
+            known_bsdfs: KnownBsdfs::new(scene, walks),
+            walks,
+            volumes: Volumes::new(scene, &census, solids.len(), &level),
             lights: LightTable::new(scene, lamps(scene, &groups), used),
             has_filters: shadows.iter().any(|shadow| shadow.filters),
             all_visible: scene.objects.iter().all(|object| object.visible),
@@ -242,7 +252,7 @@ impl<'s> World<'s> {
     pub(crate) fn seen_inside(
         &self,
         passing: &PassingRay,
-        inside: Option<Inside>,
+        inside: Option<&Inside>,
         time: f32,
         camera: bool,
     ) -> Option<SurfaceHit> {
@@ -281,6 +291,12 @@ impl<'s> World<'s> {
     #[inline]
     pub(crate) fn known_bsdfs(&self) -> &KnownBsdfs {
         &self.known_bsdfs
+    }
+
+    /// Whether light is followed below surfaces.
+    #[inline]
+    pub(crate) fn walks(&self) -> bool {
+        self.walks
     }
 
     /// Ia.

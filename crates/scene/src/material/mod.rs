@@ -10,7 +10,7 @@ pub use phong::{FresnelMode, Phong};
 pub use standard::{Conductor, Standard, ThinFilm};
 
 use crate::color::Rgb;
-use crate::ids::TextureId;
+use crate::ids::{MediumId, TextureId};
 use std::borrow::Cow;
 
 /// A relief that bends the shading normal without moving the surface.
@@ -89,6 +89,28 @@ impl Surface {
         }
     }
 
+    /// Whether it is the boundary of an inside, which light enters and leaves.
+    pub fn encloses(&self) -> bool {
+        match self {
+            Self::Standard(standard) => standard.refracts() && !standard.thin_walled,
+            Self::Phong(_) | Self::Unlit(_) => self.refracts(),
+        }
+    }
+
+    /// Index of refraction of the inside relative to the outside.
+    pub fn ior(&self) -> f32 {
+        match self {
+            Self::Phong(phong) => phong.ior,
+            Self::Standard(standard) => standard.ior,
+            Self::Unlit(_) => 1.0,
+        }
+    }
+
+    /// Whether light may walk below it and come out elsewhere.
+    pub fn has_subsurface(&self) -> bool {
+        matches!(self, Self::Standard(standard) if standard.subsurface.factor > 0.0)
+    }
+
     /// Whether highlights are drawn out along the tangents of the surface.
     pub fn follows_tangents(&self) -> bool {
         matches!(self, Self::Standard(standard) if standard.anisotropy.factor > 0.0)
@@ -127,13 +149,30 @@ pub struct Material {
     pub cutoff: Option<f32>,
     /// Bends the shading normal.
     pub relief: Option<Relief>,
+    /// What fills the inside of a closed surface. Where the surface lets light through, by refraction or by its opacity, that
+    /// enters the medium; with an opacity of 0 there is a medium and no surface.
+    pub interior: Option<MediumId>,
+    /// Which of several clear bodies there is where they overlap: the one of the highest number, and the surfaces of others do not
+    /// exist there. Where it is given, indices of refraction of the bodies inside are those against vacuum.
+    ///
+    /// # Source
+    /// Schmidt, Budge, "Simple Nested Dielectrics in Ray Traced Images", Journal of Graphics Tools, 2002.
+    pub priority: Option<u32>,
 }
 
 impl Material {
     /// A surface that covers all and is smooth.
     pub fn of(name: impl Into<String>, surface: Surface) -> Self {
         let opacity = FloatInput::constant(1.0);
-        Self { name: name.into(), surface, opacity, cutoff: None, relief: None }
+        Self {
+            name: name.into(),
+            surface,
+            opacity,
+            cutoff: None,
+            relief: None,
+            interior: None,
+            priority: None,
+        }
     }
 
     /// One of the report's surfaces.

@@ -87,6 +87,15 @@ pub struct Standard {
     pub diffuse_transmission: FloatInput,
     /// Tint of that light, in `[0, 1]`.
     pub diffuse_transmission_color: ColorInput,
+    /// Share of the matte part whose light walks below the surface and comes out elsewhere, in `[0, 1]`. The surface must close;
+    /// integrators that do not follow light below surfaces show it as matte in `subsurface_color`.
+    pub subsurface: FloatInput,
+    /// The colour that a thick body of that matter has, in `[0, 1]`.
+    pub subsurface_color: ColorInput,
+    /// How far light flies from one scattering to the next, in metres and per channel, above 0: the mean free path.
+    pub subsurface_radius: Rgb,
+    /// Mean cosine of the angle by which light is scattered there, above -1 and below 1.
+    pub subsurface_anisotropy: f32,
     /// Share of the surface under a clear coat, in `[0, 1]`.
     pub coat: FloatInput,
     /// Roughness of the coat, in `[0, 1]`.
@@ -127,6 +136,10 @@ impl Default for Standard {
             dispersion: 0.0,
             diffuse_transmission: none,
             diffuse_transmission_color: white,
+            subsurface: none,
+            subsurface_color: ColorInput::constant(Rgb::splat(0.8)),
+            subsurface_radius: Rgb::new(0.01, 0.005, 0.0025),
+            subsurface_anisotropy: 0.0,
             coat: none,
             coat_roughness: none,
             coat_ior: 1.5,
@@ -141,18 +154,19 @@ impl Default for Standard {
 
 impl Standard {
     /// The colours that textures may vary, by the names that scene files give them.
-    pub fn colors(&self) -> [(&'static str, &ColorInput); 5] {
+    pub fn colors(&self) -> [(&'static str, &ColorInput); 6] {
         [
             ("base_color", &self.base_color),
             ("specular_color", &self.specular_color),
             ("diffuse_transmission_color", &self.diffuse_transmission_color),
+            ("subsurface_color", &self.subsurface_color),
             ("sheen_color", &self.sheen_color),
             ("emission", &self.emission),
         ]
     }
 
     /// The numbers from 0 to 1 that textures may vary, by the names that scene files give them.
-    pub fn shares(&self) -> [(&'static str, &FloatInput); 11] {
+    pub fn shares(&self) -> [(&'static str, &FloatInput); 12] {
         [
             ("diffuse_roughness", &self.diffuse_roughness),
             ("metalness", &self.metalness),
@@ -161,6 +175,7 @@ impl Standard {
             ("anisotropy", &self.anisotropy),
             ("transmission", &self.transmission),
             ("diffuse_transmission", &self.diffuse_transmission),
+            ("subsurface", &self.subsurface),
             ("coat", &self.coat),
             ("coat_roughness", &self.coat_roughness),
             ("sheen_roughness", &self.sheen_roughness),
@@ -174,6 +189,7 @@ impl Standard {
             &mut self.base_color,
             &mut self.specular_color,
             &mut self.diffuse_transmission_color,
+            &mut self.subsurface_color,
             &mut self.sheen_color,
             &mut self.emission,
         ];
@@ -185,6 +201,7 @@ impl Standard {
             &mut self.anisotropy,
             &mut self.transmission,
             &mut self.diffuse_transmission,
+            &mut self.subsurface,
             &mut self.coat,
             &mut self.coat_roughness,
             &mut self.sheen_roughness,

@@ -2,7 +2,7 @@
 
 use super::issue::{ItemKind, Problem, SceneIssue};
 use crate::color::Rgb;
-use crate::ids::{GroupId, MaterialId, MeshId, TextureId};
+use crate::ids::{GroupId, MaterialId, MediumId, MeshId, TextureId};
 use crate::scene::Scene;
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -107,6 +107,10 @@ impl<'a> Collector<'a> {
 
     pub(super) fn texture(&mut self, id: TextureId) {
         self.id(ItemKind::Texture, id.0, self.scene.textures.len());
+    }
+
+    pub(super) fn medium(&mut self, id: MediumId) {
+        self.id(ItemKind::Medium, id.0, self.scene.media.len());
     }
 
     fn id(&mut self, kind: ItemKind, id: u32, count: usize) {

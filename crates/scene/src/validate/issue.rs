@@ -16,6 +16,8 @@ pub enum ItemKind {
     Texture,
     /// [`crate::Scene::materials`].
     Material,
+    /// [`crate::Scene::media`].
+    Medium,
     /// [`crate::Scene::groups`].
     Group,
     /// [`crate::Group::objects`]; the name is that of the group, a slash, and that of the object.
@@ -35,6 +37,7 @@ impl fmt::Display for ItemKind {
             Self::Mesh => "mesh",
             Self::Texture => "texture",
             Self::Material => "material",
+            Self::Medium => "medium",
             Self::Group => "group",
             Self::Member | Self::Object => "object",
             Self::Light => "light",
@@ -82,6 +85,8 @@ pub enum Problem {
     NoArea,
     /// The samples of an image are not as many as its size says, or it has no size.
     ImageSize,
+    /// The values of a grid are not as many as its size says, or it has no size.
+    GridSize,
     /// A mesh contradicts itself.
     Mesh(MeshError),
     /// A group holds nothing.
@@ -122,6 +127,7 @@ impl fmt::Display for Problem {
             Self::InfiniteArea => f.write_str("a light cannot have an infinite surface"),
             Self::NoArea => f.write_str("there is no surface"),
             Self::ImageSize => f.write_str("the image has not as many samples as its size says"),
+            Self::GridSize => f.write_str("the grid has not as many values as its size says"),
             Self::Mesh(error) => error.fmt(f),
             Self::EmptyGroup => f.write_str("the group holds no objects"),
             Self::NoPlace => f.write_str("the group has no place to stand"),

@@ -23,6 +23,7 @@ fn check_material(material: &Material, c: &mut Collector<'_>) {
     if let Some(cutoff) = material.cutoff {
         c.number("cutoff", cutoff, "from 0 to 1", is_share);
     }
+    material.interior.into_iter().for_each(|id| c.medium(id));
     material.relief.into_iter().for_each(|relief| check_relief(relief, c));
 }
 
@@ -54,6 +55,11 @@ fn check_standard(standard: &Standard, c: &mut Collector<'_>) {
     c.finite("anisotropy_rotation", standard.anisotropy_rotation.is_finite());
     standard.anisotropy_direction.into_iter().for_each(|id| c.texture(id));
     c.color("absorption", standard.absorption);
+    let radius = standard.subsurface_radius;
+    c.number("subsurface_radius", radius.min_element(), "above 0", |v| v > 0.0 && radius.is_finite());
+    c.number("subsurface_anisotropy", standard.subsurface_anisotropy, "above -1 and below 1", |v| {
+        v.abs() < 1.0
+    });
     c.not_negative("dispersion", standard.dispersion);
     standard.coat_relief.into_iter().for_each(|relief| check_relief(relief, c));
     let film = &standard.thin_film;

@@ -8,6 +8,7 @@ mod groups;
 mod issue;
 mod items;
 mod materials;
+mod media;
 
 pub use issue::{ItemKind, Problem, SceneIssue};
 
@@ -18,7 +19,7 @@ impl Scene {
     /// Checks the whole scene.
     ///
     /// # Errors
-    /// Everything that is wrong, in the order meshes, textures, materials, groups, objects, lights, cameras, background.
+    /// Everything that is wrong, in the order meshes, textures, materials, media, groups, objects, lights, cameras, background.
     ///
     /// ```
     /// use heliostat_scene::{Scene, validate::Problem};
@@ -31,6 +32,7 @@ impl Scene {
         items::meshes(self, &mut collector);
         items::textures(self, &mut collector);
         materials::materials(self, &mut collector);
+        media::media(self, &mut collector);
         groups::groups(self, &mut collector);
         items::objects(self, &mut collector);
         items::lights(self, &mut collector);

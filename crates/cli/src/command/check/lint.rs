@@ -27,6 +27,12 @@ pub(super) fn lint(path: &Path, scene: &Scene) -> Vec<Warning> {
     let read = |index: usize| scene.materials.iter().any(|m| m.textures().iter().any(|t| t.index() == index));
     let textures = scene.textures.iter().enumerate().filter(|&(index, _)| !read(index));
     textures.for_each(|(_, texture)| unused("the texture", &texture.name));
+    let fills = |index: usize| {
+        let interior = scene.materials.iter().any(|m| m.interior.is_some_and(|id| id.index() == index));
+        interior || scene.atmosphere.is_some_and(|atmosphere| atmosphere.medium.index() == index)
+    };
+    let media = scene.media.iter().enumerate().filter(|&(index, _)| !fills(index));
+    media.for_each(|(_, medium)| unused("the medium", &medium.name));
     let placed =
         |index: usize| objects().any(|o| matches!(o.geometry, Geometry::Group(id) if id.index() == index));
     let groups = scene.groups.iter().enumerate().filter(|&(index, _)| !placed(index));

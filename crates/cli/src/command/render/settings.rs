@@ -57,6 +57,7 @@ fn integrator(name: Integrator) -> IntegratorKind {
         Integrator::Direct => IntegratorKind::Direct,
         Integrator::PathSimple => IntegratorKind::PathSimple,
         Integrator::Path => IntegratorKind::Path,
+        Integrator::VolPath => IntegratorKind::VolPath,
     }
 }
 

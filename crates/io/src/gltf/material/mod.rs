@@ -87,7 +87,7 @@ impl Reader<'_, '_> {
             }
         };
         let (opacity, cutoff) = self.opacity(factor[3], texture.as_ref())?;
-        Ok(Material { name, surface, opacity, cutoff, relief })
+        Ok(Material { opacity, cutoff, relief, ..Material::of(name, surface) })
     }
 
     fn standard(

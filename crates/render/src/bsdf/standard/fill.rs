@@ -52,6 +52,9 @@ struct MatteFill {
     share: f32,
     up: Matte,
     down: Rgb,
+    /// Share of the light that walks below the surface, and its colour when it comes out.
+    under: f32,
+    under_color: Rgb,
     mean: Rgb,
 }
 
@@ -171,6 +174,17 @@ impl Fill {
         Sides { up: passed * sum.up + stopped, down: passed * sum.down }
     }
 
+    /// Share of the light along `wo` that walks below the surface, and about its colour when it comes out.
+    pub(super) fn under(&self, cover: &Cover, wo: Vec3) -> (Rgb, Rgb) {
+        match &self.matte {
+            Some(matte) if matte.under > 0.0 => {
+                let share = matte.share * matte.under * cover.passed(wo);
+                (share * self.face.passed(&self.reflection, wo), matte.under_color)
+            }
+            _ => (Rgb::ZERO, Rgb::ZERO),
+        }
+    }
+
     /// Share of the light along `wo` that gets through the boundary of clear matter.
     pub(super) fn face_passed(&self, wo: Vec3) -> Rgb {
         self.face.passed(&self.reflection, wo)
@@ -209,11 +223,19 @@ fn matte_fill(
     let through = point.diffuse_transmission;
     let mean =
         covered_mean(cover, reflection, |w| face.passed(reflection, w), || face.passed_mean(reflection));
+    // Light that walks leaves less to what is matte; where none does, it has the colour of both.
+    let (color, under) = if point.walks {
+        ((1.0 - point.subsurface) * point.base_color, point.subsurface)
+    } else {
+        (point.base_color.lerp(point.subsurface_color, point.subsurface), 0.0)
+    };
     // Under a mirror there is no light to scale.
     (mean.max_element() > error_bound::TABLE_ERROR).then_some(MatteFill {
         share: base.matte_share(),
-        up: Matte { color: (1.0 - through) * point.base_color, roughness: point.diffuse_roughness },
-        down: through * point.diffuse_transmission_color,
+        up: Matte { color: (1.0 - through) * color, roughness: point.diffuse_roughness },
+        down: (1.0 - under) * through * point.diffuse_transmission_color,
+        under,
+        under_color: point.subsurface_color,
         mean: mean.max(Rgb::splat(error_bound::TABLE_ERROR)),
     })
 }

@@ -23,6 +23,11 @@ pub(crate) struct StandardPoint {
     pub(crate) dispersion: f32,
     pub(crate) diffuse_transmission: f32,
     pub(crate) diffuse_transmission_color: Rgb,
+    /// Share of the matte part that lets light in, and the colour that a thick body of it has.
+    pub(crate) subsurface: f32,
+    pub(crate) subsurface_color: Rgb,
+    /// Whether that light is followed; else such matter is matte and has that colour.
+    pub(crate) walks: bool,
     pub(crate) coat: f32,
     pub(crate) coat_roughness: f32,
     pub(crate) coat_ior: f32,

@@ -26,9 +26,12 @@ pub(crate) enum Way {
     Up,
     /// By the cosine below.
     Down,
+    /// In, to walk below the surface: by the cosine as well.
+    Under,
 }
 
-pub(crate) const WAYS: [Way; 6] = [Way::Coat, Way::Fibres, Way::Reflected, Way::Passed, Way::Up, Way::Down];
+pub(crate) const WAYS: [Way; 7] =
+    [Way::Coat, Way::Fibres, Way::Reflected, Way::Passed, Way::Up, Way::Down, Way::Under];
 
 /// A surface and who looks at it.
 #[derive(Clone, Copy, Debug)]
@@ -49,7 +52,8 @@ impl<'b> View<'b> {
         let fibres = bsdf.cover.fibres.map_or(0.0, |fibres| bsdf.cover.coat_passed(wo) * fibres.kept(wo));
         let reflected = passed * bright(bsdf.reflected_about(wo));
         let through = passed * bright(bsdf.passed_about(wo));
-        let weights = [coat, fibres, reflected, through, bright(up), bright(down)];
+        let under = bright(bsdf.fill.under(&bsdf.cover, wo).0);
+        let weights = [coat, fibres, reflected, through, bright(up), bright(down), under];
         let sum: f32 = weights.iter().sum();
         let shares = if sum > 0.0 { weights.map(|weight| weight / sum) } else { [0.0; WAYS.len()] };
         Self { bsdf, wo, passed, shares }
@@ -78,7 +82,8 @@ impl<'b> View<'b> {
         let fibres = cover.fibres.map_or(Rgb::ZERO, |fibres| cover.coat_passed(wo) * fibres.albedo(wo));
         let Sides { up, down } = fill.albedo(cover, wo);
         let facets = self.passed * (base.reflected(wo.z) + base.passed(wo.z));
-        (facets + fibres + up + down + coat).min(Rgb::ONE)
+        let (under, color) = fill.under(cover, self.wo);
+        (facets + fibres + up + down + under * color + coat).min(Rgb::ONE)
     }
 
     /// Probability of a way.
@@ -185,6 +190,11 @@ impl<'b> View<'b> {
                 Through::Smooth(wi, weight) => return self.delta(way, wi, weight, Event::Transmission),
             },
             Way::Up => (warp::square_to_cosine_hemisphere(at), Event::Diffuse),
+            Way::Under => {
+                let wi = mirrored_down(warp::square_to_cosine_hemisphere(at));
+                let weight = bsdf.fill.under(&bsdf.cover, wo).0;
+                return self.delta(way, wi, weight, Event::Subsurface);
+            }
             Way::Down => (mirrored_down(warp::square_to_cosine_hemisphere(at)), Event::Diffuse),
         };
         let (value, pdf) = self.answer(wi);

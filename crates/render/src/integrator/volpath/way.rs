@@ -1,0 +1,159 @@
+//! A path on its way through surfaces and media.
+
+use crate::bsdf::Event;
+use crate::integrator::next_event::left_of;
+use crate::integrator::path::{CERTAIN, Depth, MOST_CERTAIN};
+use crate::interiors::Interiors;
+use crate::light::Lookout;
+use crate::medium::flight;
+use crate::medium::lead::Lead;
+use crate::path_point::{Covering, Onward, PathPoint};
+use crate::sampler::Sampler;
+use crate::world::{Matter, PassingRay, SurfaceHit};
+use glam::Vec3;
+use heliostat_scene::Rgb;
+use heliostat_scene::settings::DepthLimits;
+use std::ops::ControlFlow;
+
+/// A path on its way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Way {
+    pub(super) passing: PassingRay,
+    /// What it runs through.
+    pub(super) around: Interiors,
+    /// What radiance from here is multiplied by, over the chances of the flight.
+    pub(super) weight: Rgb,
+    /// The flight since the last scattering, where there was a medium on it.
+    lead: Option<Lead>,
+    /// Where light was scattered last, and with what density it was sent here; `None` where only camera, mirrors and glass
+    /// are behind.
+    pub(super) scattered: Option<(Lookout, f32)>,
+    /// What happened last.
+    pub(super) after: Option<Event>,
+    pub(super) depth: Depth,
+    /// Whether it comes straight from the camera, cut-outs aside: invisible objects are not seen.
+    pub(super) from_camera: bool,
+    /// Whether it has only passed through things: then it sees no background that is to stay transparent.
+    pub(super) passed_only: bool,
+    /// Whether it looks for lights alone, and ends with the next surface.
+    pub(super) is_last: bool,
+}
+
+impl Way {
+    /// From the camera.
+    pub(super) fn new(passing: PassingRay, around: Interiors) -> Self {
+        Self {
+            passing,
+            around,
+            weight: Rgb::ONE,
+            lead: None,
+            scattered: None,
+            after: None,
+            depth: Depth::default(),
+            from_camera: true,
+            passed_only: true,
+            is_last: false,
+        }
+    }
+
+    /// Flies through a medium up to `end` lengths of the ray: where it is scattered, `None` where it gets through.
+    pub(super) fn fly(&mut self, matter: &Matter<'_, '_>, end: f32, draws: &mut Sampler) -> Option<Vec3> {
+        let ray = self.passing.ray;
+        let length = ray.dir.length();
+        let (dir, from, to) = (ray.dir / length, 0.0, end * length);
+        let way = matter.clip(flight::Way { origin: ray.origin, dir, from, to });
+        let is_empty = way.from >= way.to;
+        if is_empty {
+            return None;
+        }
+        let mut lead = self.lead.or_else(|| Lead::new(self.weight, draws.next_1d()))?;
+        let t = matter.medium.fly(&way, &mut lead, &mut self.weight, draws);
+        self.lead = Some(lead);
+        t.map(|t| way.at(t))
+    }
+
+    /// What radiance from here is multiplied by.
+    #[inline]
+    pub(super) fn settled(&self) -> Rgb {
+        self.lead.map_or(self.weight, |lead| self.weight / lead.own())
+    }
+
+    /// The densities of the flight and of a shadow ray on the same way.
+    #[inline]
+    pub(super) fn chances(&self) -> (f32, f32) {
+        self.lead.map_or((1.0, 1.0), |lead| (lead.own(), lead.asked()))
+    }
+
+    /// Ends a flight with that weight.
+    pub(super) fn settle(&mut self, weight: Rgb) {
+        self.weight = weight;
+        self.lead = None;
+    }
+
+    /// Weakens it by the glass that it came through: the one that it is in, or one that it leaves and was not known to be
+    /// in, because the camera stands in it.
+    pub(super) fn absorb(&mut self, left: Option<Rgb>, surface: &SurfaceHit) {
+        let absorption = self.around.ruling().map(|inside| inside.absorption).or(left);
+        if let Some(absorption) = absorption {
+            self.weight *= left_of(absorption, surface.hit.t * self.passing.ray.dir.length());
+        }
+    }
+
+    /// Goes on as if there were no surface.
+    pub(super) fn pass(&mut self, covering: &Covering<'_>, surface: &SurfaceHit) {
+        let dir = self.passing.ray.dir;
+        self.absorb(None, surface);
+        self.passing = self.passing.behind(surface, dir);
+        self.around.change(&covering.straight_change(surface, dir));
+    }
+
+    /// Sends it on from a surface.
+    pub(super) fn go_on(&mut self, onward: &Onward, point: &PathPoint<'_>, limits: &DepthLimits) {
+        let sample = &onward.sample;
+        if !onward.is_straight {
+            self.settle(self.settled());
+            self.scattered = if sample.is_delta() { None } else { Some((point.lookout(), sample.pdf)) };
+        }
+        self.passing = onward.passing;
+        self.around.change(&onward.change);
+        self.weight *= sample.weight;
+        self.after = Some(sample.event);
+        self.from_camera = false;
+        self.passed_only &= sample.event == Event::Transmission;
+        self.is_last |= self.depth.grow(sample.event, limits);
+    }
+
+    /// Sends it on from a point of a medium, along a ray drawn with that density.
+    pub(super) fn scattered_by_medium(
+        &mut self,
+        from: Lookout,
+        passing: PassingRay,
+        pdf: f32,
+        limits: &DepthLimits,
+    ) {
+        self.passing = passing;
+        self.scattered = Some((from, pdf));
+        // Surfaces that light nothing do not light media either.
+        self.after = Some(Event::Diffuse);
+        self.from_camera = false;
+        self.passed_only = false;
+        self.is_last |= self.depth.grow_volume(limits);
+    }
+
+    /// Ends it by chance if it carries little. In a medium that scatters all no light is lost, and no path ends by chance; between
+    /// surfaces that reflect all, some must.
+    pub(super) fn roulette(&mut self, draws: &mut Sampler) -> ControlFlow<()> {
+        if self.depth.all() <= CERTAIN {
+            return ControlFlow::Continue(());
+        }
+        let most = if self.depth.total > CERTAIN { MOST_CERTAIN } else { 1.0 };
+        let survives = self.settled().max_element().min(most);
+        // Written so that a weight that is no number ends it.
+        let goes_on = draws.next_1d() < survives;
+        if !goes_on {
+            return ControlFlow::Break(());
+        }
+        self.weight /= survives;
+        ControlFlow::Continue(())
+    }
+}
