@@ -15,6 +15,7 @@ const INDEX: &str = "heliostat-index";
 const SCENE: &str = "heliostat-scene";
 const RENDER: &str = "heliostat-render";
 const IO: &str = "heliostat-io";
+const OIDN: &str = "heliostat-oidn";
 
 /// The graph. What is not listed here is forbidden.
 const GRAPH: &[Allowed] = &[
@@ -48,9 +49,10 @@ const GRAPH: &[Allowed] = &[
             "toml",
         ],
     },
+    Allowed { package: OIDN, inside: &[], outside: &["libloading", "thiserror"] },
     Allowed {
         package: "heliostat",
-        inside: &[GEOMETRY, INDEX, SCENE, RENDER, IO],
+        inside: &[GEOMETRY, INDEX, SCENE, RENDER, IO, OIDN],
         outside: &[
             "clap",
             "clap_complete",
