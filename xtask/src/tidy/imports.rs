@@ -21,7 +21,7 @@ const OIDN: &str = "heliostat-oidn";
 const GRAPH: &[Allowed] = &[
     Allowed { package: GEOMETRY, inside: &[], outside: &["glam", "proptest"] },
     Allowed { package: INDEX, inside: &[GEOMETRY], outside: &["glam", "obvhs", "rayon"] },
-    Allowed { package: SCENE, inside: &[GEOMETRY], outside: &["glam"] },
+    Allowed { package: SCENE, inside: &[GEOMETRY], outside: &["glam", "half"] },
     Allowed {
         package: RENDER,
         inside: &[GEOMETRY, INDEX, SCENE],
@@ -31,6 +31,8 @@ const GRAPH: &[Allowed] = &[
         package: IO,
         inside: &[GEOMETRY, SCENE],
         outside: &[
+            "bevy_mikktspace",
+            "draco-core",
             "earcut",
             "exr",
             "gltf",

@@ -11,6 +11,7 @@ use crate::texture_cache::TextureCache;
 use heliostat_geometry::{Aabb, TriMesh};
 use heliostat_scene::Image;
 use heliostat_scene::image::Encoding;
+use heliostat_scene::texture::Tile;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::path::{Path, PathBuf};
@@ -91,12 +92,25 @@ impl Assets {
         made_by: Option<&str>,
     ) -> Result<Arc<Image>, Fault> {
         let path = self.folder.join(file.as_str());
-        let cache = match encoding {
-            EncodingMode::Auto => 0,
-            EncodingMode::Srgb => 1,
-            EncodingMode::Linear => 2,
-        };
-        self.images[cache].image(&path).map_err(|error| fault_at(file, &path, &error, made_by))
+        self.images[cache_of(encoding)].image(&path).map_err(|error| fault_at(file, &path, &error, made_by))
+    }
+
+    /// The images that a name with `<UDIM>` stands for.
+    ///
+    /// # Errors
+    /// At the name, when there are none, or one of them cannot be read.
+    pub(crate) fn tiles(
+        &mut self,
+        file: &Placed<String>,
+        encoding: EncodingMode,
+    ) -> Result<Vec<Tile>, Fault> {
+        let path = self.folder.join(file.as_str());
+        let cache = &mut self.images[cache_of(encoding)];
+        cache.tiles(&path).map_err(|error| {
+            let report = error.report();
+            let fault = Fault::new(format!("{}: {}", quote(file), report.message)).or_at(file.span());
+            fault.with_help(report.help.clone().unwrap_or_default())
+        })
     }
 
     /// All of an OBJ file as one mesh, and what its reader warns of.
@@ -164,6 +178,15 @@ impl Assets {
                 Ok(entry.insert(Arc::new(LoadedModel { model, bounds })))
             }
         }
+    }
+}
+
+/// The cache of images in an encoding.
+fn cache_of(encoding: EncodingMode) -> usize {
+    match encoding {
+        EncodingMode::Auto => 0,
+        EncodingMode::Srgb => 1,
+        EncodingMode::Linear => 2,
     }
 }
 

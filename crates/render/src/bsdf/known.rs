@@ -32,7 +32,7 @@ fn is_even(material: &Material) -> bool {
 }
 
 fn sides(material: &Material) -> [Bsdf; 2] {
-    let at = TexturePoint { uv: Vec2::ZERO, uv1: Vec2::ZERO, local: Vec3::ZERO, coverage: 1.0 };
+    let at = TexturePoint::plain(Vec2::ZERO, Vec3::ZERO);
     let eval = MaterialEval { textures: &[], at };
     [false, true].map(|enters| Bsdf::new(&material.surface, &eval, None, enters, Vec3::Z))
 }

@@ -97,7 +97,7 @@ impl Integrator for Path {
     ) -> Sample {
         let mut found = Found::default();
         let mut way = Way {
-            passing: PassingRay::free(ray.ray),
+            passing: PassingRay::free(ray.ray).with_cone(ray.cone),
             inside: None,
             weight: Rgb::ONE,
             scattered: None,

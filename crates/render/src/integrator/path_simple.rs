@@ -80,7 +80,7 @@ impl Integrator for PathSimple {
         let (first, is_through, time) = (None, false, ray.time);
         let mut walk = Walk { world, time, counters, transparent_background, first, is_through };
         let radiance = walk.radiance(Leg {
-            passing: PassingRay::free(ray.ray),
+            passing: PassingRay::free(ray.ray).with_cone(ray.cone),
             inside: None,
             depth: 0,
             asked: None,

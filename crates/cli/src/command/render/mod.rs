@@ -133,6 +133,7 @@ impl Run<'_> {
             saved = self.save(&shot, &mut traced, frame)?;
         }
         let save_seconds = save_start.elapsed().as_secs_f64();
+        self.report.add_textures(shot.scene.texture_bytes());
         self.report.add(frame, &traced, &saved, load_seconds, save_seconds);
         self.progress.time(start.elapsed());
         Ok(())
