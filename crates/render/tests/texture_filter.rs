@@ -114,8 +114,8 @@ fn noise_falls(pattern: Pattern, scale: f32, least: f32) {
 
 #[test]
 fn images_lose_noise_towards_the_horizon_and_keep_their_mean() {
-    // Bilinear values of a board are a product of two triangle waves: their deviation is 1/6.
-    noise_falls(board(Minify::Mip), 0.5, 0.13);
+    // Bilinear values of a board are a product of two triangle waves: their deviation is 1/6, and a pixel above.
+    noise_falls(board(Minify::Mip), 0.5, 0.1);
 }
 
 #[test]

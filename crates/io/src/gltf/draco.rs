@@ -136,3 +136,96 @@ fn damaged(place: &str, why: &str) -> Flaw {
     Flaw::new(place, format!("packed bytes {why}"))
         .with_help("unpack it with `gltf-transform copy in.glb out.glb`")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use draco_core::{DataType, EncoderBuffer, EncoderOptions, GeometryAttributeType, MeshEncoder};
+    use draco_core::{PointAttribute, PointIndex};
+    use std::fmt::Write;
+
+    /// Corners of a grid of 4 by 4 squares.
+    fn positions() -> Vec<[f32; 3]> {
+        (0..25).map(|i| [(i % 5) as f32, (i / 5) as f32, 0.25 * (i % 3) as f32]).collect()
+    }
+
+    fn triangles() -> Vec<[u32; 3]> {
+        let square = |i: u32| {
+            let a = i % 4 + 5 * (i / 4);
+            [[a, a + 1, a + 6], [a, a + 6, a + 5]]
+        };
+        (0..16).flat_map(square).collect()
+    }
+
+    /// The grid as the crate packs it.
+    fn packed() -> Vec<u8> {
+        let positions = positions();
+        let mut mesh = Mesh::new();
+        mesh.set_num_points(positions.len());
+        let mut attribute = PointAttribute::new();
+        attribute.init(GeometryAttributeType::Position, 3, DataType::Float32, false, positions.len());
+        attribute.buffer_mut().update_f32s_le(0, positions.as_flattened());
+        mesh.add_attribute(attribute);
+        triangles().iter().for_each(|t| mesh.add_face(t.map(PointIndex)));
+        let mut encoder = MeshEncoder::new();
+        encoder.set_mesh(mesh);
+        let mut out = EncoderBuffer::new();
+        encoder.encode(&EncoderOptions::new(), &mut out).expect("it packs");
+        out.data().to_vec()
+    }
+
+    /// A file whose only primitive is packed into these bytes.
+    fn document(bytes: &[u8]) -> Document {
+        let mut uri = String::from("data:application/octet-stream,");
+        bytes.iter().for_each(|byte| write!(uri, "%{byte:02x}").expect("text grows"));
+        let length = bytes.len();
+        let json = format!(
+            r#"{{"asset": {{"version": "2.0"}}, "extensionsRequired": ["{NAME}"],
+                "buffers": [{{"byteLength": {length}, "uri": "{uri}"}}],
+                "bufferViews": [{{"buffer": 0, "byteLength": {length}}}],
+                "accessors": [{{"componentType": 5126, "type": "VEC3", "count": 25}},
+                              {{"componentType": 5123, "type": "SCALAR", "count": 96}}],
+                "meshes": [{{"primitives": [{{"attributes": {{"POSITION": 0}}, "indices": 1,
+                    "extensions": {{"{NAME}": {{"bufferView": 0, "attributes": {{"POSITION": 0}}}}}}}}]}}]}}"#
+        );
+        Document::new("a.gltf".as_ref(), json.into_bytes()).expect("a sound file")
+    }
+
+    #[test]
+    fn a_packed_grid_comes_out_as_it_went_in() {
+        let document = document(&packed());
+        let points = document.accessor(0, "POSITION").expect("positions");
+        let corners = document.accessor(1, "indices").expect("corners");
+        assert_eq!((points.len(), corners.len()), (25, 96));
+        // Packing renumbers points and triangles: compare the corners' places, each triangle as a set.
+        let place = |p: [f32; 3]| p.map(|v| (v * 64.0).round() as i32);
+        let sorted = |mut all: Vec<Vec<[i32; 3]>>| {
+            all.iter_mut().for_each(|triangle| triangle.sort_unstable());
+            all.sort_unstable();
+            all
+        };
+        let index = |i: usize| corners.integers::<1>(i)[0] as usize;
+        let found =
+            (0..32).map(|t| (0..3).map(|c| place(points.floats(index(3 * t + c)))).collect()).collect();
+        let planted =
+            triangles().iter().map(|t| t.map(|v| place(positions()[v as usize])).to_vec()).collect();
+        assert_eq!(sorted(found), sorted(planted));
+    }
+
+    #[test]
+    fn damage_is_told_and_never_a_panic() {
+        let bytes = packed();
+        for cut in 0..bytes.len() {
+            assert!(document(&bytes[..cut]).accessor(0, "POSITION").is_err() || cut + 4 > bytes.len());
+        }
+        for i in 0..bytes.len() {
+            let mut flipped = bytes.clone();
+            flipped[i] ^= 0x55;
+            // Some flips give another sound mesh.
+            let _ = document(&flipped).accessor(0, "POSITION");
+        }
+        let error = document(b"DRACO").accessor(0, "POSITION").unwrap_err();
+        let told = error.into_error("a.gltf".as_ref()).to_string();
+        assert!(told.contains("bufferViews[0]: packed bytes cannot be unpacked"), "{told}");
+    }
+}

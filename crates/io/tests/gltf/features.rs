@@ -132,9 +132,9 @@ fn wrong_files_name_their_place_and_mend() {
             "meshes[0].primitives[0].indices (accessors[0]): must hold Scalar; export the file again",
         ),
         (
-            r#", "extensionsRequired": ["KHR_draco_mesh_compression"]"#,
+            r#", "extensionsRequired": ["KHR_texture_basisu"]"#,
             "",
-            "extensionsRequired: needs the extension KHR_draco_mesh_compression, which is not read; decompress it with `gltf-transform copy in.glb out.glb`",
+            "extensionsRequired: needs the extension KHR_texture_basisu, which is not read; decompress it with `gltf-transform copy in.glb out.glb`",
         ),
     ] {
         let error = scene_at(triangle_bytes(json, primitive), &Moment::default()).expect_err(json);
