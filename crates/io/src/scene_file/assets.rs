@@ -4,6 +4,7 @@ use super::mesh::{MeshTable, ModelTable, smooth_angle};
 use super::texture::EncodingMode;
 use crate::document::{Fault, Placed};
 use crate::error::{LoadError, Warning, quote};
+use crate::gltf::GltfModel;
 use crate::image_file::{Limits, read_image};
 use crate::nearest::nearest_name;
 use crate::obj::{ObjModel, ObjOptions, Split, load_obj};
@@ -60,6 +61,7 @@ pub(crate) struct LoadedMesh {
 pub(crate) struct Assets {
     folder: PathBuf,
     models: HashMap<ModelKey, Arc<LoadedModel>>,
+    gltf: HashMap<PathBuf, Arc<GltfModel>>,
     /// Images as their files say, as sRGB, and as plain numbers.
     images: [TextureCache; 3],
 }
@@ -77,6 +79,7 @@ impl Assets {
         Self {
             folder: folder.to_owned(),
             models: HashMap::new(),
+            gltf: HashMap::new(),
             images: [encoded(None), encoded(Some(Encoding::Srgb)), encoded(Some(Encoding::Linear))],
         }
     }
@@ -140,6 +143,31 @@ impl Assets {
             ..ObjOptions::default()
         };
         self.obj(&table.file, &options, table.made_by.as_deref()).map(Arc::clone)
+    }
+
+    /// A glTF file.
+    ///
+    /// # Errors
+    /// When it cannot be read or is damaged.
+    pub(crate) fn gltf(
+        &mut self,
+        file: &Placed<String>,
+        made_by: Option<&str>,
+    ) -> Result<Arc<GltfModel>, Trouble> {
+        let path = self.folder.join(file.as_str());
+        if let Some(known) = self.gltf.get(&path) {
+            return Ok(Arc::clone(known));
+        }
+        let model = GltfModel::open(&path).map_err(|error| {
+            if path.is_file() {
+                Trouble::Elsewhere(error)
+            } else {
+                Trouble::Here(fault_at(file, &path, &error, made_by))
+            }
+        })?;
+        let model = Arc::new(model);
+        self.gltf.insert(path, Arc::clone(&model));
+        Ok(model)
     }
 
     /// An OBJ file that is the whole scene.

@@ -33,7 +33,7 @@
 //! | `[environment]` | [`environment`] | what is behind everything |
 //! | `[[texture]]` | [`texture`] | images and patterns |
 //! | `[[material]]` | [`material`], [`standard`] | how surfaces answer light |
-//! | `[[mesh]]`, `[[model]]` | [`mesh`] | OBJ files |
+//! | `[[mesh]]`, `[[model]]` | [`mesh`] | OBJ and glTF files |
 //! | `[[object]]` | [`object`], [`shape`], [`placement`], [`copies`] | what is there to see |
 //! | `[[group]]` | [`group`] | objects that are placed together |
 //! | `[[light]]` | [`light`], [`area`] | what lights it |
@@ -56,6 +56,7 @@ mod hierarchy;
 pub mod light;
 pub mod material;
 pub mod mesh;
+mod models;
 mod motion;
 mod names;
 pub mod number;
@@ -172,6 +173,9 @@ impl SceneFile {
         }
         for (i, object) in self.object.iter().enumerate() {
             object.check(directory.things.name(i), object.span())?;
+        }
+        for model in &self.model {
+            models::check(model)?;
         }
         hierarchy::check(self, directory)?;
         for (i, light) in self.light.iter().enumerate() {

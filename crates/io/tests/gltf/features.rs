@@ -134,7 +134,7 @@ fn wrong_files_name_their_place_and_mend() {
         (
             r#", "extensionsRequired": ["KHR_texture_basisu"]"#,
             "",
-            "extensionsRequired: needs the extension KHR_texture_basisu, which is not read; decompress it with `gltf-transform copy in.glb out.glb`",
+            "extensionsRequired: needs the extension KHR_texture_basisu, which is not read; convert its textures with `gltf-transform ktxdecompress in.glb out.glb`",
         ),
     ] {
         let error = scene_at(triangle_bytes(json, primitive), &Moment::default()).expect_err(json);
