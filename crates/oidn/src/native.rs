@@ -248,7 +248,7 @@ impl<'a> Filter<'a> {
         let (functions, pixels) = (self.device.functions, buffer.handle);
         // SAFETY: filter and buffer live and belong to one device; the library checks the size against the buffer.
         unsafe {
-            (functions.set_filter_image)(self.handle, name.as_ptr(), pixels, FLOAT3, width, height, 0, 0, 0)
+            (functions.set_filter_image)(self.handle, name.as_ptr(), pixels, FLOAT3, width, height, 0, 0, 0);
         }
     }
 

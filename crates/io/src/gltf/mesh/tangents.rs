@@ -1,4 +1,4 @@
-//! Tangents for normal maps where the file has none, by the algorithm that glTF names: MikkTSpace.
+//! Tangents for normal maps where the file has none, by the algorithm that glTF names: `MikkTSpace`.
 //!
 //! # Source
 //! Khronos, "glTF 2.0 Specification", section 3.7.2.1; Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008, through the
