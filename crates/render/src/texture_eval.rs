@@ -4,7 +4,7 @@
 //! at several places along the longer axis of what it takes in.
 //!
 //! # Source
-//! Williams, "Pyramidal Parametrics", SIGGRAPH 1983 (three-linear filtering); McCormack et al., "Feline: Fast Elliptical Lines for
+//! Williams, "Pyramidal Parametrics", SIGGRAPH 1983 (three-linear filtering); `McCormack` et al., "Feline: Fast Elliptical Lines for
 //! Anisotropic Texture Mapping", SIGGRAPH 1999 (several looks along the longer axis).
 
 mod checker;
