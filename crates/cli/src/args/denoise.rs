@@ -26,7 +26,7 @@ pub(crate) struct DenoiseArgs {
     #[arg(short, long, value_name = "OUT")]
     pub(crate) output: PathBuf,
 
-    /// The library Open Image Denoise, or its folder [default: HELIOSTAT_OIDN, else the system's]
+    /// The library Open Image Denoise, or its folder [default: `HELIOSTAT_OIDN`, else the system's]
     #[arg(long, value_name = "LIB")]
     pub(crate) oidn: Option<PathBuf>,
 

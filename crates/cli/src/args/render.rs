@@ -76,7 +76,7 @@ pub(crate) struct OutputArgs {
     #[arg(long)]
     pub(crate) denoise: bool,
 
-    /// The library Open Image Denoise, or its folder [default: HELIOSTAT_OIDN, else the system's]
+    /// The library Open Image Denoise, or its folder [default: `HELIOSTAT_OIDN`, else the system's]
     #[arg(long, value_name = "LIB", requires = "denoise")]
     pub(crate) oidn: Option<PathBuf>,
 }
