@@ -5,6 +5,7 @@
 
 mod args;
 mod command;
+mod denoise;
 mod diagnose;
 mod exit;
 mod frame_name;

@@ -20,6 +20,7 @@ pub mod scene_file;
 pub mod schema;
 pub mod source;
 pub mod texture_cache;
+mod udim;
 pub mod view;
 pub mod volume_file;
 

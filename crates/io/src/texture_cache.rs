@@ -2,7 +2,9 @@
 
 use crate::error::LoadError;
 use crate::image_file::{Limits, read_image};
+use crate::udim;
 use heliostat_scene::Image;
+use heliostat_scene::texture::Tile;
 use std::collections::HashMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -42,6 +44,21 @@ impl TextureCache {
     }
 }
 
+impl TextureCache {
+    /// The images that a path with `<UDIM>` in its name stands for.
+    ///
+    /// # Errors
+    /// When there are none, one of them cannot be read, or all of them together are too large.
+    pub(crate) fn tiles(&mut self, path: &Path) -> Result<Vec<Tile>, LoadError> {
+        let mut tiles = Vec::new();
+        for (number, file) in udim::files(path)? {
+            tiles.push(Tile { number, image: self.image(&file)? });
+            udim::check_size(path, &tiles)?;
+        }
+        Ok(tiles)
+    }
+}
+
 impl fmt::Debug for TextureCache {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("TextureCache").field("files", &self.images.keys()).finish_non_exhaustive()
@@ -64,7 +81,7 @@ mod tests {
                 return Err(LoadError::new(path, "bad"));
             }
             let samples = Samples::U8(vec![0]);
-            Ok(Image { width: 1, height: 1, channels: 1, encoding: Encoding::Srgb, samples })
+            Ok(Image::new(1, 1, 1, Encoding::Srgb, samples))
         });
         let first = cache.image(Path::new("a")).unwrap();
         assert!(Arc::ptr_eq(&first, &cache.image(Path::new("a")).unwrap()));

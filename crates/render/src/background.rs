@@ -69,7 +69,7 @@ mod tests {
     /// Four columns, two rows: value = column + 10 row.
     fn image() -> Arc<Image> {
         let samples = Samples::F32(vec![0.0, 1.0, 2.0, 3.0, 10.0, 11.0, 12.0, 13.0]);
-        Arc::new(Image { width: 4, height: 2, channels: 1, encoding: Encoding::Linear, samples })
+        Arc::new(Image::new(4, 2, 1, Encoding::Linear, samples))
     }
 
     /// The unit direction that an equirectangular image of 4 by 2 pixels shows at the centre of a pixel.

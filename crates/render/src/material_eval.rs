@@ -83,9 +83,11 @@ impl MaterialEval<'_> {
     /// Coverage in `[0, 1]`.
     pub(crate) fn opacity(&self, material: &Material) -> f32 {
         let FloatInput { factor, texture, channel: of } = material.opacity;
+        // A mean of coverage says nothing about a threshold: cut-outs are looked at in points.
+        let at = if material.cutoff.is_some() { self.at.sharp() } else { self.at };
         let coverage = |id: TextureId| match of {
-            Channel::Luminance => texture_eval::coverage(&self.textures[id.index()], &self.at),
-            _ => channel(self.texture(id), of),
+            Channel::Luminance => texture_eval::coverage(&self.textures[id.index()], &at),
+            _ => channel(texture_eval::eval(&self.textures[id.index()], &at), of),
         };
         let opacity = (factor * texture.map_or(1.0, coverage) * self.at.coverage).clamp(0.0, 1.0);
         match material.cutoff {

@@ -40,6 +40,7 @@ pub(crate) fn meta(
     if settings.integrator.traces_paths() {
         say_biases(settings, &mut say);
     }
+    say("heliostat/mipMaps", int(settings.mip_maps.into()));
     say("heliostat/filter", text(filter_name(settings.filter)));
     say("heliostat/filterRadius", Meta::Float(settings.filter_radius));
     say("heliostat/camera", text(&camera.name));

@@ -21,6 +21,8 @@ pub(crate) struct Covering<'a> {
     id: MaterialId,
     material: &'a Material,
     eval: MaterialEval<'a>,
+    /// Vertex colour.
+    tint: Rgb,
 }
 
 /// A surface point seen from one side.
@@ -69,7 +71,8 @@ impl<'a> Covering<'a> {
     pub(crate) fn new(world: &World<'a>, surface: &SurfaceHit, material: MaterialId) -> Self {
         let scene = world.scene();
         let eval = MaterialEval { textures: &scene.textures, at: surface.texture_point() };
-        Self { id: material, material: &scene.materials[material.index()], eval }
+        let tint = surface.color.unwrap_or(Rgb::ONE);
+        Self { id: material, material: &scene.materials[material.index()], eval, tint }
     }
 
     /// Coverage in `[0, 1]`.
@@ -116,7 +119,7 @@ impl<'a> Covering<'a> {
     /// Radiance that is seen and lights nothing.
     pub(crate) fn glow(&self) -> Rgb {
         match &self.material.surface {
-            Surface::Unlit(color) => self.eval.color(color),
+            Surface::Unlit(color) => self.tint * self.eval.color(color),
             Surface::Phong(_) | Surface::Standard(_) => Rgb::ZERO,
         }
     }
@@ -141,7 +144,7 @@ impl<'a> PathPoint<'a> {
         around: &Interiors,
         room: &'a mut Option<Bsdf>,
     ) -> Self {
-        let Covering { id, material, eval } = covering;
+        let Covering { id, material, eval, .. } = covering;
         let normals = Normals::new(eval, material.relief, &surface.hit, dir);
         let frame = frame_along(normals.ns, surface.hit.dpdu);
         let around = Surroundings { ior: around.ior_beside(surface.thing()), walks: world.walks() };
@@ -240,17 +243,21 @@ impl<'a> PathPoint<'a> {
         let mut sample = self.view.sample(layer, u)?;
         let dir = self.frame.to_world(sample.wi);
         if sample.is_delta() {
-            return Some(self.smooth_way(passing, sample, dir));
+            let onward = self.smooth_way(passing, sample, dir);
+            let cone = passing.cone_at(self.surface);
+            return Some(Onward { passing: onward.passing.with_cone(cone), ..onward });
         }
         sample.weight *= self.share(sample.wi, dir);
         if sample.weight == Rgb::ZERO {
             return None;
         }
-        Some(if sample.wi.z > 0.0 {
+        let onward = if sample.wi.z > 0.0 {
             self.back(passing, sample, dir)
         } else {
             self.behind(passing, sample, dir)
-        })
+        };
+        let cone = passing.cone_at(self.surface).scattered(sample.pdf);
+        Some(Onward { passing: onward.passing.with_cone(cone), ..onward })
     }
 
     /// The shadow ray to a target in the unit direction `to_light`.

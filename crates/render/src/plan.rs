@@ -22,10 +22,11 @@ pub(crate) struct Plan<'s> {
 impl<'s> Plan<'s> {
     /// A plan of settings and a camera that were checked.
     pub(crate) fn new(camera: &'s Camera, settings: &RenderSettings) -> Self {
+        let rays = CameraRays::new(camera, settings.width, settings.height);
         Self {
             settings: settings.clone(),
             camera,
-            rays: CameraRays::new(camera, settings.width, settings.height),
+            rays: if settings.mip_maps { rays.with_cones(settings.samples) } else { rays },
             filter: PixelFilter::new(settings.filter, settings.filter_radius, settings.samples),
         }
     }

@@ -7,7 +7,7 @@ use crate::material_eval::{MaterialEval, PhongPoint};
 use crate::phong::{fresnel, reflect, refract};
 use crate::world::{SurfaceHit, World};
 use glam::Vec3;
-use heliostat_scene::material::FresnelMode;
+use heliostat_scene::material::{FresnelMode, Surface};
 use heliostat_scene::{Material, MaterialId, Rgb};
 
 /// A surface point seen from one side.
@@ -63,6 +63,10 @@ impl<'a> ShadingPoint<'a> {
         let side = if enters { 1.0 } else { -1.0 };
         let (ng, smooth) = (side * surface.hit.at.ng, side * surface.hit.ns);
         let bent = side * eval.bent_normal(material.relief, &surface.hit, surface.hit.ns);
+        let mut phong = eval.phong(&material.surface.phong(), surface.color);
+        if let (Surface::Unlit(_), Some(color)) = (&material.surface, surface.color) {
+            phong.emission *= color;
+        }
         Self {
             surface,
             enters,
@@ -73,7 +77,7 @@ impl<'a> ShadingPoint<'a> {
             time,
             opacity: eval.opacity(material),
             material,
-            phong: eval.phong(&material.surface.phong(), surface.color),
+            phong,
         }
     }
 

@@ -1,12 +1,20 @@
 //! Textures at a point: patterns, wrapping and bilinear filtering.
 //!
-//! Values are linear RGBA with straight alpha. There is no minification filter: a pixel that covers many texels is
-//! averaged by its camera samples.
+//! Values are linear RGBA with straight alpha. A look that takes in many texels is a mean over them: of smaller copies of the image,
+//! at several places along the longer axis of what it takes in.
+//!
+//! # Source
+//! Williams, "Pyramidal Parametrics", SIGGRAPH 1983 (three-linear filtering); `McCormack` et al., "Feline: Fast Elliptical Lines for
+//! Anisotropic Texture Mapping", SIGGRAPH 1999 (several looks along the longer axis).
+
+mod checker;
+mod image;
 
 use glam::{Vec2, Vec3, Vec4};
 use heliostat_scene::Image;
 use heliostat_scene::color::luminance;
-use heliostat_scene::texture::{CheckerSpace, Filtering, Pattern, Texture, UvSet, UvTransform, Wrap};
+use heliostat_scene::texture::{CheckerSpace, Pattern, Texture, Tile, UvSet, UvTransform, Wrap};
+use image::Look;
 
 /// What a missing image looks like.
 const MAGENTA: Vec4 = Vec4::new(1.0, 0.0, 1.0, 1.0);
@@ -22,12 +30,14 @@ pub(crate) struct TexturePoint {
     pub(crate) local: Vec3,
     /// Coverage of the surface itself, in `[0, 1]`.
     pub(crate) coverage: f32,
+    /// What is taken in: the change of `uv` along the axes of an ellipse.
+    pub(crate) footprint: [Vec2; 2],
 }
 
 impl TexturePoint {
     /// A point of a surface that covers all and has one set of parameters.
     pub(crate) fn plain(uv: Vec2, local: Vec3) -> Self {
-        Self { uv, uv1: uv, local, coverage: 1.0 }
+        Self { uv, uv1: uv, local, coverage: 1.0, footprint: [Vec2::ZERO; 2] }
     }
 
     /// The parameters that a texture looks at, transformed as it wants them.
@@ -36,6 +46,19 @@ impl TexturePoint {
             UvSet::First => self.uv,
             UvSet::Second => self.uv1,
         })
+    }
+
+    /// What is taken in of the transformed parameters. That of the second set is not known: it is looked at in points.
+    fn axes(&self, transform: &UvTransform) -> [Vec2; 2] {
+        match transform.set {
+            UvSet::First => self.footprint.map(|axis| transform.apply_to_change(axis)),
+            UvSet::Second => [Vec2::ZERO; 2],
+        }
+    }
+
+    /// The point alone.
+    pub(crate) fn sharp(&self) -> Self {
+        Self { footprint: [Vec2::ZERO; 2], ..*self }
     }
 
     /// The point a step further in both sets.
@@ -47,10 +70,23 @@ impl TexturePoint {
 /// The linear RGBA value of a texture.
 pub(crate) fn eval(texture: &Texture, at: &TexturePoint) -> Vec4 {
     match &texture.pattern {
-        Pattern::Image { image, wrap_u, wrap_v, filtering } => {
-            image_at(image, [*wrap_u, *wrap_v], *filtering, at.parameters(&texture.uv))
+        Pattern::Image { image, wrap_u, wrap_v, filtering, minify } => {
+            let look = Look { image, wraps: [*wrap_u, *wrap_v], filtering: *filtering };
+            let (uv, axes) = (at.parameters(&texture.uv), at.axes(&texture.uv));
+            if axes == [Vec2::ZERO; 2] { look.at(uv) } else { look.over(uv, axes, *minify) }
+        }
+        Pattern::Tiles { tiles, filtering, minify } => {
+            let uv = at.parameters(&texture.uv);
+            let Some(image) = tile_at(tiles, uv) else { return MAGENTA };
+            let look = Look { image, wraps: [Wrap::Clamp; 2], filtering: *filtering };
+            let (uv, axes) = (uv - uv.floor(), at.axes(&texture.uv));
+            if axes == [Vec2::ZERO; 2] { look.at(uv) } else { look.over(uv, axes, *minify) }
         }
         Pattern::Checker { even, odd, space } => {
+            let axes = at.axes(&texture.uv);
+            if *space == CheckerSpace::Uv && axes != [Vec2::ZERO; 2] {
+                return checker::mean(*even, *odd, at.parameters(&texture.uv), axes).extend(1.0);
+            }
             let color = if is_even(*space, &texture.uv, at) { even } else { odd };
             color.extend(1.0)
         }
@@ -62,9 +98,11 @@ pub(crate) fn eval(texture: &Texture, at: &TexturePoint) -> Vec4 {
 pub(crate) fn coverage(texture: &Texture, at: &TexturePoint) -> f32 {
     let value = eval(texture, at);
     match &texture.pattern {
-        Pattern::Image { image, .. } if image.has_alpha() => value.w,
+        Pattern::Image { .. } | Pattern::Tiles { .. } if texture.images().any(|i| i.has_alpha()) => value.w,
         Pattern::Missing => 1.0,
-        Pattern::Image { .. } | Pattern::Checker { .. } => luminance(value.truncate()),
+        Pattern::Image { .. } | Pattern::Tiles { .. } | Pattern::Checker { .. } => {
+            luminance(value.truncate())
+        }
     }
 }
 
@@ -76,12 +114,27 @@ pub(crate) fn uv_step(texture: &Texture) -> Option<Vec2> {
     const CHECKER_TEXELS: f32 = 64.0;
     let texels = match &texture.pattern {
         Pattern::Image { image, .. } => Vec2::new(image.width as f32, image.height as f32),
+        Pattern::Tiles { tiles, .. } => {
+            let sizes = tiles.iter().map(|tile| Vec2::new(tile.image.width as f32, tile.image.height as f32));
+            sizes.fold(Vec2::ONE, Vec2::max)
+        }
         Pattern::Checker { space: CheckerSpace::Uv, .. } => Vec2::splat(CHECKER_TEXELS),
         Pattern::Checker { space: CheckerSpace::Local, .. } | Pattern::Missing => return None,
     };
     // A turn mixes the axes: the finer of the two serves both.
     let density = (texels * texture.uv.scale.abs()).max_element();
     (density.is_finite() && density > 0.0).then(|| Vec2::splat(1.0 / density))
+}
+
+/// The image of the unit square around a point.
+fn tile_at(tiles: &[Tile], uv: Vec2) -> Option<&Image> {
+    /// Squares of a row, and rows, that numbers of four digits can tell.
+    const MOST: Vec2 = Vec2::new(10.0, 900.0);
+    let square = uv.floor();
+    let exists = square.cmpge(Vec2::ZERO).all() && square.cmplt(MOST).all();
+    let number = || 1001 + square.x as u32 + 10 * square.y as u32;
+    let index = tiles.binary_search_by_key(&exists.then(number)?, |tile| tile.number).ok()?;
+    Some(&tiles[index].image)
 }
 
 /// Whether the square or cube around the point has the colour of the one at the origin.
@@ -103,50 +156,4 @@ fn is_even(space: CheckerSpace, transform: &UvTransform, at: &TexturePoint) -> b
 fn snapped_floor(v: f32) -> f32 {
     let nearest = v.round();
     if (v - nearest).abs() <= heliostat_geometry::error_bound::on_face(nearest) { nearest } else { v.floor() }
-}
-
-/// The value of an image at transformed surface parameters; `v = 0` is its lower edge.
-fn image_at(image: &Image, wraps: [Wrap; 2], filtering: Filtering, uv: Vec2) -> Vec4 {
-    let x = texel_position(uv.x, image.width, wraps[0]);
-    let y = texel_position(1.0 - uv.y, image.height, wraps[1]);
-    let pixel =
-        |x: i64, y: i64| image.pixel(wrapped(x, image.width, wraps[0]), wrapped(y, image.height, wraps[1]));
-    match filtering {
-        Filtering::Nearest => pixel(x.floor() as i64, y.floor() as i64),
-        Filtering::Bilinear => {
-            // Texel centres lie at halves.
-            let (x, y) = (x - 0.5, y - 0.5);
-            let (x0, y0) = (x.floor(), y.floor());
-            let (fx, fy) = (x - x0, y - y0);
-            let (x0, y0) = (x0 as i64, y0 as i64);
-            let upper = pixel(x0, y0).lerp(pixel(x0 + 1, y0), fx);
-            let lower = pixel(x0, y0 + 1).lerp(pixel(x0 + 1, y0 + 1), fx);
-            upper.lerp(lower, fy)
-        }
-    }
-}
-
-/// A coordinate in texels, brought near the image first, so that its fraction keeps its digits. 0 for NaN.
-fn texel_position(u: f32, size: u32, wrap: Wrap) -> f32 {
-    let u = if u.is_finite() { u } else { 0.0 };
-    let near = match wrap {
-        Wrap::Repeat => u - u.floor(),
-        Wrap::Mirror => u - 2.0 * (0.5 * u).floor(),
-        Wrap::Clamp => u.clamp(0.0, 1.0),
-    };
-    near * size as f32
-}
-
-/// The index inside the image that stands for texel `i`.
-fn wrapped(i: i64, size: u32, wrap: Wrap) -> u32 {
-    let size = i64::from(size);
-    let inside = match wrap {
-        Wrap::Repeat => i.rem_euclid(size),
-        Wrap::Mirror => {
-            let i = i.rem_euclid(2 * size);
-            if i < size { i } else { 2 * size - 1 - i }
-        }
-        Wrap::Clamp => i.clamp(0, size - 1),
-    };
-    inside as u32
 }

@@ -275,6 +275,7 @@ fn the_header_says_how_it_was_made_and_not_when_or_where() {
         "heliostat/filter",
         "heliostat/filterRadius",
         "heliostat/integrator",
+        "heliostat/mipMaps",
         "heliostat/region",
         "heliostat/samples",
         "heliostat/seed",

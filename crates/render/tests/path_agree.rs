@@ -179,13 +179,7 @@ fn many_lights_and_lights_in_each_others_way() {
 fn a_sky_with_a_small_sun_and_a_sun_disk() {
     let mut values = vec![0.2; 3 * 32 * 16];
     values[3 * (3 * 32 + 18)..][..3].copy_from_slice(&[60.0, 50.0, 20.0]);
-    let image = Image {
-        width: 32,
-        height: 16,
-        channels: 3,
-        encoding: Encoding::Linear,
-        samples: Samples::F32(values),
-    };
+    let image = Image::new(32, 16, 3, Encoding::Linear, Samples::F32(values));
     let sky = |rotation| Background::Image { image: Arc::new(image.clone()), intensity: Rgb::ONE, rotation };
     let shiny = || Phong { specular: grey(0.5), diffuse: grey(0.4), ..white() };
     for rotation in [0.0, 2.0] {

@@ -12,7 +12,7 @@ use heliostat_geometry::Transform;
 use heliostat_scene::image::{Encoding, Samples};
 use heliostat_scene::light::{Falloff, LightKind};
 use heliostat_scene::material::Phong;
-use heliostat_scene::texture::{Filtering, Pattern, UvTransform, Wrap};
+use heliostat_scene::texture::{Filtering, Minify, Pattern, UvTransform, Wrap};
 use heliostat_scene::{Image, Rgb, Texture, TextureId};
 use std::sync::Arc;
 
@@ -177,9 +177,9 @@ fn mirrors_and_glass_see_what_the_camera_does_not() {
 /// A texture of two columns: alpha 0 on the left, 1 on the right.
 fn half_alpha() -> Texture {
     let samples = Samples::U8(vec![255, 255, 255, 0, 255, 255, 255, 255]);
-    let image = Arc::new(Image { width: 2, height: 1, channels: 4, encoding: Encoding::Linear, samples });
+    let image = Arc::new(Image::new(2, 1, 4, Encoding::Linear, samples));
     let (wrap, filtering) = (Wrap::Clamp, Filtering::Nearest);
-    let pattern = Pattern::Image { image, wrap_u: wrap, wrap_v: wrap, filtering };
+    let pattern = Pattern::Image { image, wrap_u: wrap, wrap_v: wrap, filtering, minify: Minify::Mip };
     Texture { name: "half".to_owned(), pattern, uv: UvTransform::default() }
 }
 

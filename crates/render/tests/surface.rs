@@ -12,7 +12,7 @@ use heliostat_scene::image::{Encoding, Samples};
 use heliostat_scene::light::{Falloff, LightKind};
 use heliostat_scene::material::{ColorInput, FloatInput, Phong, Relief};
 use heliostat_scene::object::Geometry;
-use heliostat_scene::texture::{CheckerSpace, Filtering, Pattern, UvTransform, Wrap};
+use heliostat_scene::texture::{CheckerSpace, Filtering, Minify, Pattern, UvTransform, Wrap};
 use heliostat_scene::{Image, Rgb, Texture, TextureId};
 use std::f32::consts::FRAC_PI_2;
 use std::sync::Arc;
@@ -189,8 +189,8 @@ fn at_uv(stage: &Stage, u: f32, v: f32) -> Rgb {
 /// A grey image of 4 columns and 2 rows with value column + 10 row, the row counted from the top.
 fn ramp(wrap: Wrap, filtering: Filtering, uv: UvTransform) -> Texture {
     let samples = Samples::F32((0..8).map(|i| (i % 4 + 10 * (i / 4)) as f32).collect());
-    let image = Arc::new(Image { width: 4, height: 2, channels: 1, encoding: Encoding::Linear, samples });
-    let pattern = Pattern::Image { image, wrap_u: wrap, wrap_v: wrap, filtering };
+    let image = Arc::new(Image::new(4, 2, 1, Encoding::Linear, samples));
+    let pattern = Pattern::Image { image, wrap_u: wrap, wrap_v: wrap, filtering, minify: Minify::Mip };
     Texture { name: "ramp".to_owned(), pattern, uv }
 }
 
@@ -304,9 +304,9 @@ fn a_ramp_as_bump_tilts_the_normal_by_its_slope() {
 #[test]
 fn a_normal_map_tilts_along_the_tangents() {
     let samples = Samples::F32(vec![0.5 + 0.3, 0.5 - 0.2, 0.5 + 0.4]);
-    let image = Arc::new(Image { width: 1, height: 1, channels: 3, encoding: Encoding::Linear, samples });
+    let image = Arc::new(Image::new(1, 1, 3, Encoding::Linear, samples));
     let (wrap, filtering) = (Wrap::Repeat, Filtering::Nearest);
-    let pattern = Pattern::Image { image, wrap_u: wrap, wrap_v: wrap, filtering };
+    let pattern = Pattern::Image { image, wrap_u: wrap, wrap_v: wrap, filtering, minify: Minify::Mip };
     let mut stage = textured(Texture { name: "n".to_owned(), pattern, uv: UvTransform::default() });
     stage.last_material().relief = Some(Relief::Normal { texture: TextureId(0), strength: 1.0 });
     let normal = stage.look(Vec3::Y, Vec3::ZERO).first.unwrap().normal;
@@ -322,15 +322,14 @@ fn a_normal_map_tilts_along_the_tangents() {
 fn relief_never_turns_its_back_on_the_viewer() {
     // A rough floor, lit from straight above and seen at all angles down to grazing: no point may be black.
     let noise: Vec<u8> = (0..64 * 64_u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
-    let image = Arc::new(Image {
-        width: 64,
-        height: 64,
-        channels: 1,
-        encoding: Encoding::Linear,
-        samples: Samples::U8(noise),
-    });
-    let pattern =
-        Pattern::Image { image, wrap_u: Wrap::Repeat, wrap_v: Wrap::Repeat, filtering: Filtering::Bilinear };
+    let image = Arc::new(Image::new(64, 64, 1, Encoding::Linear, Samples::U8(noise)));
+    let pattern = Pattern::Image {
+        image,
+        wrap_u: Wrap::Repeat,
+        wrap_v: Wrap::Repeat,
+        filtering: Filtering::Bilinear,
+        minify: Minify::Mip,
+    };
     let mut stage = Stage::new();
     stage.scene.textures.push(Texture { name: "rough".to_owned(), pattern, uv: UvTransform::default() });
     let mut stage = stage.with(plane(), white(), Transform::IDENTITY).with_light(

@@ -1,7 +1,12 @@
 //! Pixels as they were read, in their own bit depth.
 
+mod mips;
+
+pub use mips::Mips;
+
 use crate::color::{Rgb, srgb_to_linear};
 use glam::Vec4;
+use half::f16;
 use std::sync::LazyLock;
 
 /// How stored values map to light.
@@ -20,6 +25,8 @@ pub enum Samples {
     U8(Vec<u8>),
     /// 16 bits, 65535 is 1.
     U16(Vec<u16>),
+    /// Half floats, as they are.
+    F16(Vec<f16>),
     /// Floats, as they are.
     F32(Vec<f32>),
 }
@@ -37,6 +44,8 @@ pub struct Image {
     pub encoding: Encoding,
     /// `width * height * channels` values.
     pub samples: Samples,
+    /// Smaller copies of it, made when they are first asked for: [`Mips::default`] in a new image.
+    pub mips: Mips,
 }
 
 /// The 256 linear values of 8-bit sRGB.
@@ -44,6 +53,35 @@ static SRGB_U8: LazyLock<[f32; 256]> =
     LazyLock::new(|| std::array::from_fn(|i| srgb_to_linear(i as f32 / 255.0)));
 
 impl Image {
+    /// An image of these samples.
+    pub fn new(width: u32, height: u32, channels: u8, encoding: Encoding, samples: Samples) -> Self {
+        Self { width, height, channels, encoding, samples, mips: Mips::default() }
+    }
+
+    /// A black image in 8 bits, transparent where it has alpha.
+    pub fn black(width: u32, height: u32, channels: u8, encoding: Encoding) -> Self {
+        let samples = Samples::U8(vec![0; width as usize * height as usize * usize::from(channels)]);
+        Self::new(width, height, channels, encoding, samples)
+    }
+
+    /// Levels of the image and its smaller copies, down to a single pixel.
+    pub fn level_count(&self) -> usize {
+        (u32::BITS - self.width.max(self.height).max(1).leading_zeros()) as usize
+    }
+
+    /// The image itself for 0, else a copy of `2^-level` its width and height; the smallest for levels that do not exist. The
+    /// first call for a copy makes all of them.
+    pub fn level(&self, level: usize) -> &Self {
+        let Some(below) = level.checked_sub(1) else { return self };
+        let copies = self.mips.of(self);
+        copies.get(below).or(copies.last()).unwrap_or(self)
+    }
+
+    /// Bytes that the smaller copies take once they are made.
+    pub fn mip_bytes(&self) -> usize {
+        mips::bytes(self)
+    }
+
     /// The linear RGBA value of pixel `(x, y)`, `y` counted from the top; alpha is 1 where there is none.
     ///
     /// # Panics
@@ -66,11 +104,12 @@ impl Image {
         self.channels.is_multiple_of(2)
     }
 
-    /// Bytes that the samples take.
+    /// Bytes that the samples take, smaller copies not counted.
     pub fn bytes(&self) -> usize {
         match &self.samples {
             Samples::U8(v) => v.len(),
             Samples::U16(v) => 2 * v.len(),
+            Samples::F16(v) => 2 * v.len(),
             Samples::F32(v) => 4 * v.len(),
         }
     }
@@ -79,6 +118,7 @@ impl Image {
         match &self.samples {
             Samples::U8(v) => f32::from(v[i]) / 255.0,
             Samples::U16(v) => f32::from(v[i]) / 65535.0,
+            Samples::F16(v) => v[i].to_f32(),
             Samples::F32(v) => v[i],
         }
     }

@@ -10,6 +10,7 @@ use crate::object::Object;
 use crate::settings::IntegratorKind;
 use crate::texture::Texture;
 use heliostat_geometry::TriMesh;
+use std::collections::HashSet;
 use std::sync::Arc;
 
 /// What rays see that leave the scene.
@@ -68,7 +69,27 @@ pub struct Scene {
     pub atmosphere: Option<Atmosphere>,
 }
 
+/// Memory that the images of textures take.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TextureBytes {
+    /// The images as they were read.
+    pub pixels: usize,
+    /// Their smaller copies, once they are made.
+    pub mips: usize,
+}
+
 impl Scene {
+    /// Memory of all images of textures, shared ones counted once.
+    pub fn texture_bytes(&self) -> TextureBytes {
+        let mut known = HashSet::new();
+        let images = self.textures.iter().flat_map(Texture::images);
+        let distinct = images.filter(|image| known.insert(Arc::as_ptr(image)));
+        distinct.fold(TextureBytes::default(), |sum, image| TextureBytes {
+            pixels: sum.pixels + image.bytes(),
+            mips: sum.mips + image.mip_bytes(),
+        })
+    }
+
     /// The integrator for a scene that names none: paths through media where there is a medium or light walks below surfaces,
     /// paths where a material is physically based, else the report's recursion.
     pub fn natural_integrator(&self) -> IntegratorKind {

@@ -176,6 +176,8 @@ pub struct RenderSettings {
     pub ao_samples: u32,
     /// Length of those rays in metres; infinite sees the whole scene.
     pub ao_distance: f32,
+    /// Whether images and checkers are averaged over what a ray stands for, as far as they ask for it; in points if not.
+    pub mip_maps: bool,
     /// Extra layers.
     pub layers: Layers,
     /// Whether the background is left out of the alpha channel: alpha 0 and black where rays leave the scene.
@@ -204,6 +206,7 @@ impl Default for RenderSettings {
             clamp_indirect: None,
             ao_samples: 16,
             ao_distance: f32::INFINITY,
+            mip_maps: true,
             layers: Layers::default(),
             transparent_background: false,
             camera: 0,

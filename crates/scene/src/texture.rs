@@ -27,6 +27,18 @@ pub enum Filtering {
     Bilinear,
 }
 
+/// What a look shows that takes in more than one pixel, where the picture of an image is smaller than the image.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Minify {
+    /// The nearest pixel.
+    Nearest,
+    /// Linear between the four nearest pixels.
+    Bilinear,
+    /// The mean of all of them, from smaller copies of the image.
+    #[default]
+    Mip,
+}
+
 /// Where a checker pattern lives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CheckerSpace {
@@ -69,8 +81,22 @@ impl Default for UvTransform {
 impl UvTransform {
     /// The transformed surface parameters.
     pub fn apply(&self, uv: Vec2) -> Vec2 {
-        Vec2::from_angle(self.rotation).rotate(uv * self.scale) + self.offset
+        self.apply_to_change(uv) + self.offset
     }
+
+    /// What becomes of a difference of surface parameters.
+    pub fn apply_to_change(&self, change: Vec2) -> Vec2 {
+        Vec2::from_angle(self.rotation).rotate(change * self.scale)
+    }
+}
+
+/// One of the images of a surface that is painted on many.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tile {
+    /// 1001 for the unit square at the origin, plus `u`, plus ten times `v`.
+    pub number: u32,
+    /// The pixels.
+    pub image: Arc<Image>,
 }
 
 /// The pattern of a texture.
@@ -86,6 +112,17 @@ pub enum Pattern {
         wrap_v: Wrap,
         /// Filtering between pixels.
         filtering: Filtering,
+        /// Filtering of many pixels at once.
+        minify: Minify,
+    },
+    /// Images side by side, one for each unit square of the surface parameters (UDIM); nothing is repeated.
+    Tiles {
+        /// In the order of their numbers.
+        tiles: Vec<Tile>,
+        /// Filtering between pixels.
+        filtering: Filtering,
+        /// Filtering of many pixels at once.
+        minify: Minify,
     },
     /// Two colours in turn.
     Checker {
@@ -112,10 +149,22 @@ pub struct Texture {
 }
 
 impl Texture {
+    /// The images that it shows.
+    pub fn images(&self) -> impl Iterator<Item = &Arc<Image>> {
+        let (one, many) = match &self.pattern {
+            Pattern::Image { image, .. } => (Some(image), &[][..]),
+            Pattern::Tiles { tiles, .. } => (None, tiles.as_slice()),
+            Pattern::Checker { .. } | Pattern::Missing => (None, &[][..]),
+        };
+        one.into_iter().chain(many.iter().map(|tile| &tile.image))
+    }
+
     /// Whether its value depends on the surface parameters.
     pub fn uses_parameters(&self) -> bool {
         match self.pattern {
-            Pattern::Image { .. } | Pattern::Checker { space: CheckerSpace::Uv, .. } => true,
+            Pattern::Image { .. }
+            | Pattern::Tiles { .. }
+            | Pattern::Checker { space: CheckerSpace::Uv, .. } => true,
             Pattern::Checker { space: CheckerSpace::Local, .. } | Pattern::Missing => false,
         }
     }

@@ -11,7 +11,7 @@ use heliostat_scene::material::{ColorInput, Material, Phong, Relief, Surface};
 use heliostat_scene::medium::{Atmosphere, DensityGrid};
 use heliostat_scene::object::{Geometry, Object};
 use heliostat_scene::scene::Background;
-use heliostat_scene::texture::{Filtering, Pattern, Texture, UvTransform, Wrap};
+use heliostat_scene::texture::{Filtering, Minify, Pattern, Texture, UvTransform, Wrap};
 use heliostat_scene::validate::{ItemKind, Problem};
 use heliostat_scene::{Group, GroupId, MaterialId, Medium, MediumId, MeshId, Motion, Rgb, Scene, TextureId};
 use std::sync::Arc;
@@ -22,18 +22,13 @@ fn scene() -> Scene {
         triangles: vec![[0, 1, 2]],
         ..TriMesh::default()
     };
-    let image = Image {
-        width: 2,
-        height: 1,
-        channels: 3,
-        encoding: Encoding::Srgb,
-        samples: Samples::U8(vec![0; 6]),
-    };
+    let image = Image::new(2, 1, 3, Encoding::Srgb, Samples::U8(vec![0; 6]));
     let pattern = Pattern::Image {
         image: Arc::new(image),
         wrap_u: Wrap::Repeat,
         wrap_v: Wrap::Repeat,
         filtering: Filtering::Bilinear,
+        minify: Minify::Mip,
     };
     let light = |name: &str, kind| Light { name: name.to_owned(), intensity: Vec3::ONE, samples: 1, kind };
     let area = LightKind::Area {

@@ -20,6 +20,10 @@ pub(super) fn all() -> Vec<(&'static str, DynamicImage)> {
         ("marble.png", picture(marble)),
         ("studs_normal.png", picture(studs)),
         ("chart.png", picture(chart)),
+        ("rings.1001.png", picture(|u, v| rings(u, v))),
+        ("rings.1002.png", picture(|u, v| rings(u + 1.0, v))),
+        ("rings.1011.png", picture(|u, v| rings(u, v + 1.0))),
+        ("rings.1012.png", picture(|u, v| rings(u + 1.0, v + 1.0))),
     ]
 }
 
@@ -83,6 +87,13 @@ fn studs(u: f64, v: f64) -> DVec3 {
     let slope = if r < 0.8 { 1.2 * (r / 0.8).powi(2) } else { 0.0 };
     let n = if r > 0.0 { dvec3(x / r * slope, y / r * slope, 1.0).normalize() } else { DVec3::Z };
     0.5 * n + DVec3::splat(0.5)
+}
+
+/// Rings around the corner where four UDIM tiles meet; each tile has its own colour between them.
+fn rings(u: f64, v: f64) -> DVec3 {
+    let distance = (u - 1.0).hypot(v - 1.0);
+    let tile = dvec3(0.35 + 0.5 * u.floor(), 0.75 - 0.45 * v.floor(), 0.30 + 0.4 * v.floor());
+    if (distance * 8.0).fract() < 0.5 { tile } else { DVec3::splat(0.92) }
 }
 
 /// A checker of 8 by 8 whose corners differ: red grows with u, green with v; the lower left square is white.

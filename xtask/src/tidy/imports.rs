@@ -15,12 +15,13 @@ const INDEX: &str = "heliostat-index";
 const SCENE: &str = "heliostat-scene";
 const RENDER: &str = "heliostat-render";
 const IO: &str = "heliostat-io";
+const OIDN: &str = "heliostat-oidn";
 
 /// The graph. What is not listed here is forbidden.
 const GRAPH: &[Allowed] = &[
     Allowed { package: GEOMETRY, inside: &[], outside: &["glam", "proptest"] },
     Allowed { package: INDEX, inside: &[GEOMETRY], outside: &["glam", "obvhs", "rayon"] },
-    Allowed { package: SCENE, inside: &[GEOMETRY], outside: &["glam"] },
+    Allowed { package: SCENE, inside: &[GEOMETRY], outside: &["glam", "half"] },
     Allowed {
         package: RENDER,
         inside: &[GEOMETRY, INDEX, SCENE],
@@ -30,6 +31,8 @@ const GRAPH: &[Allowed] = &[
         package: IO,
         inside: &[GEOMETRY, SCENE],
         outside: &[
+            "bevy_mikktspace",
+            "draco-core",
             "earcut",
             "exr",
             "gltf",
@@ -48,9 +51,10 @@ const GRAPH: &[Allowed] = &[
             "toml",
         ],
     },
+    Allowed { package: OIDN, inside: &[], outside: &["libloading", "thiserror"] },
     Allowed {
         package: "heliostat",
-        inside: &[GEOMETRY, INDEX, SCENE, RENDER, IO],
+        inside: &[GEOMETRY, INDEX, SCENE, RENDER, IO, OIDN],
         outside: &[
             "clap",
             "clap_complete",

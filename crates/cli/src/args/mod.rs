@@ -2,6 +2,7 @@
 
 mod check;
 mod compare;
+mod denoise;
 mod index;
 mod info;
 mod man;
@@ -12,6 +13,7 @@ mod view;
 
 pub(crate) use check::CheckArgs;
 pub(crate) use compare::{CompareArgs, Metric};
+pub(crate) use denoise::DenoiseArgs;
 pub(crate) use index::{IndexArgs, Preset};
 pub(crate) use info::InfoArgs;
 pub(crate) use man::{CompletionsArgs, ManArgs};
@@ -77,6 +79,7 @@ pub(crate) enum Command {
     Index(IndexArgs),
     Compare(CompareArgs),
     View(ViewArgs),
+    Denoise(DenoiseArgs),
     Video(VideoArgs),
     /// Print the JSON Schema of the scene file, for editors that complete it
     #[command(after_help = "Examples:\n  heliostat schema > heliostat.schema.json\n  \

@@ -15,6 +15,7 @@ Examples:
   heliostat render scene.toml --size 1920x1080 --samples 256 --view agx
   heliostat render scene.toml --frames 1-48 -o shot.####.exr --skip-existing
   heliostat render scene.toml --set object.ball.translate.1=2.5 --set material.glass.phong.ior=1.33
+  heliostat render scene.toml --samples 32 --denoise
   heliostat render scene.toml --progress json --stats stats.json
 
 Ctrl-C stops at the next tile and saves the picture with the samples so far (exit code 130), a numbered frame under
@@ -69,6 +70,15 @@ pub(crate) struct OutputArgs {
     /// Leave out frames whose images are all there; a finished image is always whole
     #[arg(long)]
     pub(crate) skip_existing: bool,
+
+    /// Take the noise out with Open Image Denoise; the noisy picture stays in EXR as the layer `noisy`, beside the layers
+    /// albedo and N that help
+    #[arg(long)]
+    pub(crate) denoise: bool,
+
+    /// The library Open Image Denoise, or its folder [default: `HELIOSTAT_OIDN`, else the system's]
+    #[arg(long, value_name = "LIB", requires = "denoise")]
+    pub(crate) oidn: Option<PathBuf>,
 }
 
 /// What is rendered, and how much work goes into it.

@@ -3,6 +3,7 @@
 mod check;
 mod compare;
 mod completions;
+mod denoise;
 mod index;
 mod info;
 mod man;
@@ -24,6 +25,7 @@ pub(crate) fn run(cli: Cli) -> Result<Exit, Failure> {
         Command::Index(args) => index::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::View(args) => view::run(&args),
+        Command::Denoise(args) => denoise::run(&args),
         Command::Video(args) => video::run(&args),
         Command::Schema => Ok(schema::run()),
         Command::Completions(args) => Ok(completions::run(&args)),

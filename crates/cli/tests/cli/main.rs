@@ -1,6 +1,7 @@
 //! The built binary, run as users and farms run it.
 
 mod common;
+mod denoise;
 mod determinism;
 mod exit_codes;
 mod frames;

@@ -36,6 +36,8 @@ pub struct Contents {
     pub skins: Vec<Named>,
     /// Names of the variants of materials.
     pub variants: Vec<String>,
+    /// Whether its meshes bend or morph while the shutter is open: they are shown as they are in its middle.
+    pub unblurred_meshes: bool,
     /// Extensions that the file uses.
     pub extensions: Vec<String>,
     /// Those of them that are ignored.
@@ -95,9 +97,18 @@ pub(super) fn of(model: &GltfModel) -> Contents {
         animations: root.animations.iter().enumerate().map(animation).collect(),
         skins: root.skins.iter().enumerate().map(skin).collect(),
         variants: model.variants.clone(),
+        unblurred_meshes: model.last_key().is_some() && bends(root),
         extensions: root.extensions_used.clone(),
         ignored: ignored(root),
     }
+}
+
+/// Whether any mesh bends or morphs.
+fn bends(root: &gltf::json::Root) -> bool {
+    let targets =
+        |primitive: &gltf::json::mesh::Primitive| primitive.targets.iter().flatten().next().is_some();
+    let morphs = root.meshes.iter().flat_map(|mesh| &mesh.primitives).any(targets);
+    morphs || !root.skins.is_empty()
 }
 
 fn named(name: &Option<String>, kind: &str, index: usize) -> String {

@@ -1,6 +1,7 @@
 //! An open file: its JSON, and the bytes of its buffers when somebody asks for them.
 
 use super::container::parts;
+use super::draco::Draco;
 use super::extensions::check_required;
 use super::flaw::Flaw;
 use super::json;
@@ -57,6 +58,8 @@ pub(super) struct Document {
     buffers: Vec<Once<Bytes>>,
     /// Compressed buffer views, unpacked.
     pub(super) unpacked: Vec<Once<Bytes>>,
+    /// Packed primitives.
+    pub(super) draco: Draco,
 }
 
 impl Document {
@@ -81,6 +84,7 @@ impl Document {
             binary: parts.binary.and_then(|range| bytes.slice(range.start, range.len())),
             buffers: once(root.buffers.len()),
             unpacked: once(root.buffer_views.len()),
+            draco: Draco::of(&root)?,
             root,
         })
     }

@@ -10,6 +10,7 @@ const READ: &[&str] = &[
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
@@ -26,6 +27,7 @@ const READ: &[&str] = &[
     "KHR_materials_variants",
     "KHR_materials_volume",
     "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
     "KHR_node_visibility",
     "KHR_texture_transform",
 ];
@@ -33,7 +35,6 @@ const READ: &[&str] = &[
 /// What stands for a file that needs an extension that is not read.
 fn mend(extension: &str) -> &'static str {
     match extension {
-        "KHR_draco_mesh_compression" => "decompress it with `gltf-transform copy in.glb out.glb`",
         "KHR_texture_basisu" => "convert its textures with `gltf-transform ktxdecompress in.glb out.glb`",
         "EXT_texture_avif" => "convert its textures with `gltf-transform png in.glb out.glb`",
         "MSFT_texture_dds" => "export it with PNG, JPEG or WebP textures",
@@ -80,11 +81,11 @@ mod tests {
     fn a_required_extension_that_is_not_read_is_named_with_its_mend() {
         let root = |name: &str| Root { extensions_required: vec![name.to_owned()], ..Root::default() };
         assert!(READ.iter().all(|name| check_required(&root(name)).is_ok()));
-        let error = check_required(&root("KHR_draco_mesh_compression")).unwrap_err();
+        let error = check_required(&root("KHR_texture_basisu")).unwrap_err();
         assert_eq!(
             error.into_error("a.glb".as_ref()).to_string(),
-            "a.glb: extensionsRequired: needs the extension KHR_draco_mesh_compression, which is not read; \
-             decompress it with `gltf-transform copy in.glb out.glb`"
+            "a.glb: extensionsRequired: needs the extension KHR_texture_basisu, which is not read; \
+             convert its textures with `gltf-transform ktxdecompress in.glb out.glb`"
         );
         assert!(check_required(&root("ACME_thing")).is_err());
     }

@@ -5,6 +5,7 @@ use super::extensions::extension;
 use super::flaw::Flaw;
 use super::uri::{Target, resolve};
 use crate::image_file::{Limits, decode_image};
+use half::f16;
 use heliostat_scene::Image;
 use heliostat_scene::image::{Encoding, Samples};
 use serde::Deserialize;
@@ -117,6 +118,7 @@ pub(super) fn has_holes(image: &Image) -> bool {
         && match &image.samples {
             Samples::U8(v) => v.chunks_exact(channels).any(|pixel| pixel[channels - 1] < u8::MAX),
             Samples::U16(v) => v.chunks_exact(channels).any(|pixel| pixel[channels - 1] < u16::MAX),
+            Samples::F16(v) => v.chunks_exact(channels).any(|pixel| pixel[channels - 1] < f16::ONE),
             Samples::F32(v) => v.chunks_exact(channels).any(|pixel| pixel[channels - 1] < 1.0),
         }
 }
@@ -126,5 +128,5 @@ pub(super) fn inverted_alpha(image: &Image, factor: f32) -> Image {
     let rows = (0..image.height).flat_map(|y| (0..image.width).map(move |x| (x, y)));
     let value = |(x, y)| 1.0 - factor * image.pixel(x, y).w;
     let samples = Samples::U8(rows.map(|at| (255.0 * value(at)).round() as u8).collect());
-    Image { width: image.width, height: image.height, channels: 1, encoding: Encoding::Linear, samples }
+    Image::new(image.width, image.height, 1, Encoding::Linear, samples)
 }

@@ -29,6 +29,7 @@ mod cameras;
 mod container;
 mod contents;
 mod document;
+mod draco;
 mod extensions;
 mod flaw;
 mod images;

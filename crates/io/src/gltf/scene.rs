@@ -113,7 +113,8 @@ impl Assembly<'_> {
             let place = format!("meshes[{index}].primitives[{i}]");
             let material = variants::material(primitive, self.moment.variant, &place)?;
             let alpha = material::has_alpha(&self.model.document, material);
-            let shape = ShapeOf { alpha, weights: &weights, bones: bones.as_ref() };
+            let normal_map = material::normal_map_set(&self.model.document, material);
+            let shape = ShapeOf { alpha, normal_map, weights: &weights, bones: bones.as_ref() };
             let Some(read) = self.primitive(primitive, &shape, &place)? else { continue };
             let material = self.material(material)?;
             let name = match mesh.primitives.len() {

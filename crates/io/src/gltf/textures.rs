@@ -8,7 +8,7 @@ use glam::Vec2;
 use gltf::json::texture::{self, MagFilter, MinFilter, WrappingMode};
 use gltf::json::validation::Checked;
 use heliostat_scene::image::Encoding;
-use heliostat_scene::texture::{Filtering, Pattern, Texture, UvSet, UvTransform, Wrap};
+use heliostat_scene::texture::{Filtering, Minify, Pattern, Texture, UvSet, UvTransform, Wrap};
 use heliostat_scene::{Image, TextureId};
 use serde::Deserialize;
 use serde_json::{Map, Value};
@@ -170,7 +170,8 @@ impl<'d> Textures<'d> {
         };
         let filtering = sampler.map_or(Filtering::Bilinear, filtering);
         let wraps = [sampler.map(|s| s.wrap_s), sampler.map(|s| s.wrap_t)].map(wrap);
-        Pattern::Image { image, wrap_u: wraps[0], wrap_v: wraps[1], filtering }
+        let minify = sampler.map_or(Minify::Mip, minify);
+        Pattern::Image { image, wrap_u: wraps[0], wrap_v: wraps[1], filtering, minify }
     }
 }
 
@@ -182,6 +183,15 @@ fn filtering(sampler: &texture::Sampler) -> Filtering {
         _ => false,
     };
     if nearest { Filtering::Nearest } else { Filtering::Bilinear }
+}
+
+/// A filter without smaller copies is one that the author wants; without any, the best there is.
+fn minify(sampler: &texture::Sampler) -> Minify {
+    match sampler.min_filter {
+        Some(Checked::Valid(MinFilter::Nearest)) => Minify::Nearest,
+        Some(Checked::Valid(MinFilter::Linear)) => Minify::Bilinear,
+        _ => Minify::Mip,
+    }
 }
 
 /// The name of a texture, or of its image.

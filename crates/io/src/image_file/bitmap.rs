@@ -75,7 +75,7 @@ fn convert(image: DynamicImage) -> Result<Image, Refusal> {
         _ => return Err(Refusal::Variant("has an unknown pixel format".to_owned())),
     };
     let encoding = if matches!(samples, Samples::F32(_)) { Encoding::Linear } else { Encoding::Srgb };
-    Ok(Image { width, height, channels, encoding, samples })
+    Ok(Image::new(width, height, channels, encoding, samples))
 }
 
 /// The JPEG decoder fills the missing part of a cut file with grey and says nothing: look for the end mark.

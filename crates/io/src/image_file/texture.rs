@@ -4,6 +4,8 @@ use super::{Limits, Refusal};
 use crate::error::LoadError;
 use crate::exr_file;
 use crate::picture::{Picture, main_layer};
+use half::f16;
+use heliostat_scene::frame::Depth;
 use heliostat_scene::image::{Encoding, Image, Samples};
 use std::path::Path;
 
@@ -15,7 +17,18 @@ pub(super) fn decode(path: &Path, bytes: &[u8], limits: &Limits) -> Result<Image
     let pixel_bytes = 4 * layer.channel_count() as u64;
     limits.check(frame.width.into(), frame.height.into(), pixel_bytes).map_err(|e| e.about(path))?;
     let picture = Picture::of_layer(&frame, &layer);
-    Ok(image(&picture, layer.is_grey(), layer.has_alpha()))
+    let mut image = image(&picture, layer.is_grey(), layer.has_alpha());
+    if frame.channels.iter().all(|channel| channel.depth == Depth::Half) {
+        keep_half(&mut image);
+    }
+    Ok(image)
+}
+
+/// Stores the samples of an image that came from halves as halves.
+fn keep_half(image: &mut Image) {
+    if let Samples::F32(samples) = &image.samples {
+        image.samples = Samples::F16(samples.iter().map(|&v| f16::from_f32(v)).collect());
+    }
 }
 
 /// Straight alpha and finite values.
@@ -33,5 +46,5 @@ fn image(picture: &Picture, is_grey: bool, has_alpha: bool) -> Image {
         }
     }
     let (width, height) = (picture.width, picture.height);
-    Image { width, height, channels, encoding: Encoding::Linear, samples: Samples::F32(samples) }
+    Image::new(width, height, channels, Encoding::Linear, Samples::F32(samples))
 }

@@ -1,6 +1,7 @@
 //! Images as numbers: one channel alone, a mask as alpha, and the look of a normal map.
 
 use super::map::Channel;
+use half::f16;
 use heliostat_scene::color::luminance;
 use heliostat_scene::image::{Encoding, Samples};
 use heliostat_scene::{Image, Rgb};
@@ -39,6 +40,7 @@ fn has_cut_outs(image: &Image) -> bool {
         && match &image.samples {
             Samples::U8(v) => v.iter().skip(channels - 1).step_by(channels).any(|&a| a != u8::MAX),
             Samples::U16(v) => v.iter().skip(channels - 1).step_by(channels).any(|&a| a != u16::MAX),
+            Samples::F16(v) => v.iter().skip(channels - 1).step_by(channels).any(|a| !full(a.to_f32())),
             Samples::F32(v) => v.iter().skip(channels - 1).step_by(channels).any(|&a| !full(a)),
         }
 }
@@ -49,10 +51,11 @@ fn extract(image: &Image, channel: Channel, copies: usize) -> Image {
     let samples = match &image.samples {
         Samples::U8(v) => Samples::U8(spread(v, channels, channel, copies, u8::MAX, |x| (x + 0.5) as u8)),
         Samples::U16(v) => Samples::U16(spread(v, channels, channel, copies, u16::MAX, |x| (x + 0.5) as u16)),
+        Samples::F16(v) => Samples::F16(spread(v, channels, channel, copies, f16::ONE, f16::from_f32)),
         Samples::F32(v) => Samples::F32(spread(v, channels, channel, copies, 1.0, |x| x)),
     };
     let (width, height) = (image.width, image.height);
-    Image { width, height, channels: copies as u8, encoding: Encoding::Linear, samples }
+    Image::new(width, height, copies as u8, Encoding::Linear, samples)
 }
 
 /// `copies` times the value of `channel` for every pixel; `full` is an alpha of 1.
@@ -106,6 +109,7 @@ fn stored(image: &Image, i: usize) -> f32 {
     match &image.samples {
         Samples::U8(v) => f32::from(v[i]) / 255.0,
         Samples::U16(v) => f32::from(v[i]) / 65535.0,
+        Samples::F16(v) => v[i].to_f32(),
         Samples::F32(v) => v[i],
     }
 }
@@ -116,7 +120,7 @@ mod tests {
 
     fn image(channels: u8, values: &[u8]) -> Image {
         let width = (values.len() / usize::from(channels)) as u32;
-        Image { width, height: 1, channels, encoding: Encoding::Srgb, samples: Samples::U8(values.to_vec()) }
+        Image::new(width, 1, channels, Encoding::Srgb, Samples::U8(values.to_vec()))
     }
 
     fn bytes(image: Image) -> Vec<u8> {

@@ -8,6 +8,7 @@ use crate::file::read_file;
 use crate::nearest::suggestion;
 use crate::texture_cache::TextureCache;
 use heliostat_scene::Image;
+use heliostat_scene::texture::Tile;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -24,6 +25,14 @@ pub trait ObjFiles {
     /// # Errors
     /// When there is no such file or it is no image.
     fn image(&mut self, from: &Path, name: &str) -> Result<Arc<Image>, LoadError>;
+
+    /// The images that `name` with `<UDIM>` in it stands for, named in the file `from`.
+    ///
+    /// # Errors
+    /// When there are none or one is no image; always, where folders cannot be looked into.
+    fn tiles(&mut self, from: &Path, name: &str) -> Result<Vec<Tile>, LoadError> {
+        Err(LoadError::new(from, format!("tiles are not looked for: {name}")))
+    }
 }
 
 /// Files on disk, images through a cache.
@@ -49,6 +58,10 @@ impl ObjFiles for DiskFiles<'_> {
 
     fn image(&mut self, from: &Path, name: &str) -> Result<Arc<Image>, LoadError> {
         self.textures.image(&find(from, name)?)
+    }
+
+    fn tiles(&mut self, from: &Path, name: &str) -> Result<Vec<Tile>, LoadError> {
+        self.textures.tiles(&from.parent().unwrap_or(Path::new("")).join(name))
     }
 }
 

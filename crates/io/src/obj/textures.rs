@@ -6,7 +6,8 @@ use super::map::Map;
 use super::text::SourceText;
 use super::warnings::Warnings;
 use crate::error::quote;
-use heliostat_scene::texture::{Filtering, Pattern, Wrap};
+use crate::udim;
+use heliostat_scene::texture::{Filtering, Minify, Pattern, Tile, Wrap};
 use heliostat_scene::{Image, Texture, TextureId};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -56,15 +57,31 @@ impl Textures<'_, '_> {
             return id;
         }
         let pattern = match self.image(map, role) {
+            Some(_) if udim::is_tiled(&map.file) => self.tiles(map, role),
             None => Pattern::Missing,
-            Some(image) => {
-                Pattern::Image { image, wrap_u: map.wrap, wrap_v: map.wrap, filtering: Filtering::Bilinear }
-            }
+            Some(image) => Pattern::Image {
+                image,
+                wrap_u: map.wrap,
+                wrap_v: map.wrap,
+                filtering: Filtering::Bilinear,
+                minify: Minify::Mip,
+            },
         };
         let id = TextureId(self.known.textures.len() as u32);
         self.known.textures.push(Texture { name: map.file.clone(), pattern, uv: map.uv });
         self.known.ids.insert(key, id);
         id
+    }
+
+    /// All images of a map whose first one could be read.
+    fn tiles(&mut self, map: &Map, role: Role) -> Pattern {
+        let found = self.files.tiles(self.library.path, &map.file).unwrap_or_default();
+        let as_role = |tile: Tile| Tile {
+            image: for_role(&tile.image, role).map_or_else(|| Arc::clone(&tile.image), Arc::new),
+            ..tile
+        };
+        let tiles = found.into_iter().map(as_role).collect();
+        Pattern::Tiles { tiles, filtering: Filtering::Bilinear, minify: Minify::Mip }
     }
 
     fn image(&mut self, map: &Map, role: Role) -> Option<Arc<Image>> {
@@ -84,7 +101,14 @@ impl Textures<'_, '_> {
 
     /// Reads the file; warns when that fails.
     fn read(&mut self, map: &Map) -> Option<Arc<Image>> {
-        match self.files.image(self.library.path, &map.file) {
+        let read = if udim::is_tiled(&map.file) {
+            // The first tile stands for all where one image is asked about.
+            let tiles = self.files.tiles(self.library.path, &map.file);
+            tiles.map(|tiles| Arc::clone(&tiles[0].image))
+        } else {
+            self.files.image(self.library.path, &map.file)
+        };
+        match read {
             Ok(image) => Some(image),
             Err(error) => {
                 let report = error.report();

@@ -4,6 +4,7 @@ use super::mesh::{MeshTable, ModelTable, smooth_angle};
 use super::texture::EncodingMode;
 use crate::document::{Fault, Placed};
 use crate::error::{LoadError, Warning, quote};
+use crate::gltf::GltfModel;
 use crate::image_file::{Limits, read_image};
 use crate::nearest::nearest_name;
 use crate::obj::{ObjModel, ObjOptions, Split, load_obj};
@@ -12,6 +13,7 @@ use crate::volume_file::{Volume, read_volume};
 use heliostat_geometry::{Aabb, TriMesh};
 use heliostat_scene::Image;
 use heliostat_scene::image::Encoding;
+use heliostat_scene::texture::Tile;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::path::{Path, PathBuf};
@@ -60,6 +62,7 @@ pub(crate) struct LoadedMesh {
 pub(crate) struct Assets {
     folder: PathBuf,
     models: HashMap<ModelKey, Arc<LoadedModel>>,
+    gltf: HashMap<PathBuf, Arc<GltfModel>>,
     /// Images as their files say, as sRGB, and as plain numbers.
     images: [TextureCache; 3],
     volumes: HashMap<PathBuf, Arc<Volume>>,
@@ -78,6 +81,7 @@ impl Assets {
         Self {
             folder: folder.to_owned(),
             models: HashMap::new(),
+            gltf: HashMap::new(),
             images: [encoded(None), encoded(Some(Encoding::Srgb)), encoded(Some(Encoding::Linear))],
             volumes: HashMap::new(),
         }
@@ -94,12 +98,25 @@ impl Assets {
         made_by: Option<&str>,
     ) -> Result<Arc<Image>, Fault> {
         let path = self.folder.join(file.as_str());
-        let cache = match encoding {
-            EncodingMode::Auto => 0,
-            EncodingMode::Srgb => 1,
-            EncodingMode::Linear => 2,
-        };
-        self.images[cache].image(&path).map_err(|error| fault_at(file, &path, &error, made_by))
+        self.images[cache_of(encoding)].image(&path).map_err(|error| fault_at(file, &path, &error, made_by))
+    }
+
+    /// The images that a name with `<UDIM>` stands for.
+    ///
+    /// # Errors
+    /// At the name, when there are none, or one of them cannot be read.
+    pub(crate) fn tiles(
+        &mut self,
+        file: &Placed<String>,
+        encoding: EncodingMode,
+    ) -> Result<Vec<Tile>, Fault> {
+        let path = self.folder.join(file.as_str());
+        let cache = &mut self.images[cache_of(encoding)];
+        cache.tiles(&path).map_err(|error| {
+            let report = error.report();
+            let fault = Fault::new(format!("{}: {}", quote(file), report.message)).or_at(file.span());
+            fault.with_help(report.help.clone().unwrap_or_default())
+        })
     }
 
     /// A grid of densities.
@@ -150,6 +167,31 @@ impl Assets {
         self.obj(&table.file, &options, table.made_by.as_deref()).map(Arc::clone)
     }
 
+    /// A glTF file.
+    ///
+    /// # Errors
+    /// When it cannot be read or is damaged.
+    pub(crate) fn gltf(
+        &mut self,
+        file: &Placed<String>,
+        made_by: Option<&str>,
+    ) -> Result<Arc<GltfModel>, Trouble> {
+        let path = self.folder.join(file.as_str());
+        if let Some(known) = self.gltf.get(&path) {
+            return Ok(Arc::clone(known));
+        }
+        let model = GltfModel::open(&path).map_err(|error| {
+            if path.is_file() {
+                Trouble::Elsewhere(error)
+            } else {
+                Trouble::Here(fault_at(file, &path, &error, made_by))
+            }
+        })?;
+        let model = Arc::new(model);
+        self.gltf.insert(path, Arc::clone(&model));
+        Ok(model)
+    }
+
     /// An OBJ file that is the whole scene.
     ///
     /// # Errors
@@ -186,6 +228,15 @@ impl Assets {
                 Ok(entry.insert(Arc::new(LoadedModel { model, bounds })))
             }
         }
+    }
+}
+
+/// The cache of images in an encoding.
+fn cache_of(encoding: EncodingMode) -> usize {
+    match encoding {
+        EncodingMode::Auto => 0,
+        EncodingMode::Srgb => 1,
+        EncodingMode::Linear => 2,
     }
 }
 

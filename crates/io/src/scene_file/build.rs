@@ -1,10 +1,10 @@
 //! From the tables of a scene file to a scene.
 
-use super::assets::{Assets, LoadedModel, Trouble};
+use super::assets::{Assets, Trouble};
 use super::environment::EnvironmentTable;
 use super::groups::Made;
 use super::light::LightTable;
-use super::mesh::ModelTable;
+use super::models::Model;
 use super::motion::{Motions, PixelSize};
 use super::object::ObjectTable;
 use super::stage::{Cast, Stage};
@@ -14,14 +14,12 @@ use super::textures::Textures;
 use super::{Directory, SceneFile};
 use crate::document::{Fault, Placed, Sources};
 use crate::error::Warning;
-use crate::obj::Placement;
 use heliostat_geometry::{Aabb, Transform};
 use heliostat_scene::light::LightKind;
 use heliostat_scene::material::Phong;
 use heliostat_scene::object::Geometry;
 use heliostat_scene::scene::Background;
 use heliostat_scene::{Camera, Light, Material, MaterialId, MeshId, Motion, RenderSettings, Rgb, Scene};
-use std::sync::Arc;
 
 /// Name of the material of objects that name none.
 const DEFAULT_MATERIAL: &str = "default";
@@ -65,8 +63,8 @@ pub(crate) fn build(
     builder.media()?;
     builder.materials()?;
     let meshes = builder.meshes()?;
-    let models = builder.models()?;
     builder.groups()?;
+    let models = builder.models()?;
     let made = builder.made_objects()?;
     let boxes = builder.boxes(&made, &meshes, &models)?;
     let cast = Cast { directory: &directory, boxes };
@@ -87,7 +85,7 @@ pub(crate) fn build(
 }
 
 /// Adds warnings, each once: several tables may name the same file.
-fn warn(warnings: &mut Vec<Warning>, new: &[Warning]) {
+pub(super) fn warn(warnings: &mut Vec<Warning>, new: &[Warning]) {
     for warning in new {
         if !warnings.contains(warning) {
             warnings.push(warning.clone());
@@ -102,9 +100,9 @@ pub(super) struct Builder<'a> {
     pub(super) file: &'a SceneFile,
     pub(super) directory: &'a Directory,
     sources: &'a Sources,
-    assets: &'a mut Assets,
+    pub(super) assets: &'a mut Assets,
     pub(super) scene: Scene,
-    warnings: Vec<Warning>,
+    pub(super) warnings: Vec<Warning>,
 }
 
 impl Builder<'_> {
@@ -144,29 +142,14 @@ impl Builder<'_> {
         Ok(boxes)
     }
 
-    fn models(&mut self) -> Result<Vec<Arc<LoadedModel>>, Trouble> {
-        let mut models = Vec::new();
-        for table in &self.file.model {
-            let loaded = self.assets.model(table)?;
-            warn(&mut self.warnings, &loaded.model.warnings);
-            models.push(loaded);
-        }
-        Ok(models)
-    }
-
     /// The boxes of objects, models and objects of groups in local space.
-    fn boxes(
-        &self,
-        objects: &[Made],
-        meshes: &[Aabb],
-        models: &[Arc<LoadedModel>],
-    ) -> Result<Vec<Aabb>, Fault> {
+    fn boxes(&self, objects: &[Made], meshes: &[Aabb], models: &[Model]) -> Result<Vec<Aabb>, Fault> {
         let groups = self.group_boxes(objects)?;
         let objects = objects.iter().map(|made| match &made.geometry {
             Geometry::Mesh(id) => meshes[id.index()],
             other => groups.geometry(&self.scene, other),
         });
-        let models = models.iter().map(|loaded| loaded.bounds);
+        let models = models.iter().map(|model| model.bounds(&self.scene, &groups));
         Ok(objects.chain(models).chain(self.member_boxes(&groups)).collect())
     }
 
@@ -273,27 +256,6 @@ impl Builder<'_> {
             self.scene.materials.len() - 1
         });
         MaterialId(index as u32)
-    }
-
-    fn place_models(
-        &mut self,
-        models: &[Arc<LoadedModel>],
-        motions: &[Motion<Transform>],
-    ) -> Result<(), Fault> {
-        let first = self.file.object.len();
-        for (i, table) in self.file.model.iter().enumerate() {
-            let table: &ModelTable = table;
-            let material = table.material.as_ref().map(|name| self.directory.materials.find(name));
-            let placement = Placement {
-                motion: motions[i].clone(),
-                prefix: self.directory.things.name(first + i).to_owned(),
-                material: material.transpose()?.map(|index| MaterialId(index as u32)),
-                visible: table.visible.unwrap_or(true),
-                casts_shadow: table.casts_shadow.unwrap_or(true),
-            };
-            models[i].model.append_to(&mut self.scene, &placement);
-        }
-        Ok(())
     }
 
     fn lights(&mut self, targets: &Targets<'_>) -> Result<(), Fault> {

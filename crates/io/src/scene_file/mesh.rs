@@ -1,7 +1,7 @@
-//! `[[mesh]]` and `[[model]]`: OBJ files.
+//! `[[mesh]]` and `[[model]]`: OBJ and glTF files.
 //!
 //! A mesh is all of a file as one thing that objects share; a model is a file as it is, each group an object with
-//! its own materials.
+//! its own materials; of a glTF file all that it shows at the start of its animations, but not its cameras and lights.
 //!
 //! # Scene file
 //! ```toml
@@ -13,9 +13,9 @@
 //!
 //! [[model]]
 //! name = "house"                 # the name of the file if left out; objects are called `house/group`
-//! file = "house.obj"
+//! file = "house.obj"             # or .gltf, .glb
 //! material = "clay"              # optional: instead of all its own materials
-//! smooth_angle = 60
+//! smooth_angle = 60              # of OBJ files
 //! translate = [0, 0, -3]         # scale, rotate, translate or matrix, visible, casts_shadow, as for an object
 //! ```
 
@@ -43,13 +43,13 @@ pub struct MeshTable {
     pub made_by: Option<String>,
 }
 
-/// An OBJ file as it is.
+/// An OBJ or glTF file as it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ModelTable {
     /// Name, unique among models, and the first part of the names of its objects; the name of the file if left out.
     pub name: Option<Placed<String>>,
-    /// Path of the OBJ file, relative to the scene file.
+    /// Path of the OBJ or glTF file (`.obj`, `.gltf`, `.glb`), relative to the scene file.
     pub file: Placed<String>,
     /// The name of a `[[material]]` that replaces those of the file.
     pub material: Option<Placed<String>>,

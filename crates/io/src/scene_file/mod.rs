@@ -34,7 +34,7 @@
 //! | `[[texture]]` | [`texture`] | images and patterns |
 //! | `[[medium]]` | [`medium`] | what light flies through |
 //! | `[[material]]` | [`material`], [`standard`] | how surfaces answer light |
-//! | `[[mesh]]`, `[[model]]` | [`mesh`] | OBJ files |
+//! | `[[mesh]]`, `[[model]]` | [`mesh`] | OBJ and glTF files |
 //! | `[[object]]` | [`object`], [`shape`], [`placement`], [`copies`] | what is there to see |
 //! | `[[group]]` | [`group`] | objects that are placed together |
 //! | `[[light]]` | [`light`], [`area`] | what lights it |
@@ -58,6 +58,7 @@ pub mod light;
 pub mod material;
 pub mod medium;
 pub mod mesh;
+mod models;
 mod motion;
 mod names;
 pub mod number;
@@ -178,6 +179,9 @@ impl SceneFile {
         }
         for (i, object) in self.object.iter().enumerate() {
             object.check(directory.things.name(i), object.span())?;
+        }
+        for model in &self.model {
+            models::check(model)?;
         }
         hierarchy::check(self, directory)?;
         for (i, light) in self.light.iter().enumerate() {

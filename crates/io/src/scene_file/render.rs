@@ -19,6 +19,7 @@
 //! # clamp_indirect = 10          # the most that a sample of its indirect light adds; all of it if left out
 //! ao_samples = 16                # rays per point of the integrator "ambient_occlusion"
 //! # ao_distance = 1              # their length in metres; without end if left out
+//! mip_maps = true                # whether textures are averaged over what a ray stands for
 //! layers = []                    # "depth", "normal", "albedo", "position", "uv", "object_id", "material_id"
 //! transparent_background = false # alpha 0 where rays leave the scene
 //! # camera = "main"              # the first camera if left out
@@ -75,6 +76,8 @@ pub struct RenderTable {
     pub ao_samples: Option<Count>,
     /// Length of those rays in metres; without end if left out.
     pub ao_distance: Option<Positive>,
+    /// Whether textures are averaged over what a ray stands for, so that they do not flicker far away; true if left out.
+    pub mip_maps: Option<bool>,
     /// Layers beside the beauty.
     pub layers: Option<Vec<LayerName>>,
     /// Whether alpha is 0 where rays leave the scene; `false` if left out.
@@ -214,6 +217,7 @@ impl RenderTable {
             clamp_indirect: self.clamp_indirect.map(Positive::f32),
             ao_samples: self.ao_samples.map_or(normal.ao_samples, Count::u32),
             ao_distance: self.ao_distance.map_or(normal.ao_distance, Positive::f32),
+            mip_maps: self.mip_maps.unwrap_or(normal.mip_maps),
             layers: layers(self.layers.as_deref().unwrap_or_default()),
             transparent_background: self.transparent_background.unwrap_or(normal.transparent_background),
             camera,
@@ -268,6 +272,7 @@ impl RenderTable {
             clamp_indirect: settings.clamp_indirect.and_then(|most| Positive::new(most.into())),
             ao_samples: Whole::new(settings.ao_samples.into()),
             ao_distance: Positive::new(settings.ao_distance.into()),
+            mip_maps: Some(settings.mip_maps),
             layers: Some(layer_names(settings.layers)),
             transparent_background: Some(settings.transparent_background),
             camera: camera.map(|name| name.to_owned().into()),

@@ -4,9 +4,11 @@
 //! ```toml
 //! [[texture]]
 //! name = "wood"
-//! image = "wood.png"             # PNG, JPEG, HDR or EXR, relative to the scene file
+//! image = "wood.png"             # PNG, JPEG, HDR or EXR, relative to the scene file; "wood.<UDIM>.png" is wood.1001.png and so on,
+//!                                # one for each unit square of uv
 //! wrap = "repeat"                # "mirror", "clamp"; or wrap_u and wrap_v
 //! filter = "bilinear"            # "nearest"
+//! minify = "mip"                 # far away: means of many pixels; "bilinear" or "nearest" look at few of them
 //! encoding = "auto"              # "srgb", "linear"; auto: as the file says, and linear for bump and normal maps
 //! scale = 1                      # or [u, v]: repetitions
 //! rotation = 0                   # degrees
@@ -24,8 +26,9 @@ use super::number::{NonZero, Number};
 use super::value::{Color, Splat};
 use crate::document::{Fault, Placed, Span};
 use crate::error::quote;
+use crate::udim;
 use glam::Vec2;
-use heliostat_scene::texture::{CheckerSpace, Filtering, Pattern, UvSet, UvTransform, Wrap};
+use heliostat_scene::texture::{CheckerSpace, Filtering, Minify, Pattern, UvSet, UvTransform, Wrap};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -35,7 +38,8 @@ use serde::{Deserialize, Serialize};
 pub struct TextureTable {
     /// Name, unique among textures.
     pub name: Placed<String>,
-    /// Path of a PNG, JPEG, HDR or EXR file, relative to the scene file.
+    /// Path of a PNG, JPEG, HDR or EXR file, relative to the scene file. `<UDIM>` in the name stands for the numbers of many files, one for each
+    /// unit square of the surface parameters: 1001 at the origin, plus `u`, plus ten times `v`.
     pub image: Option<Placed<String>>,
     /// Squares of two colours in turn.
     pub checker: Option<Placed<CheckerTable>>,
@@ -47,6 +51,8 @@ pub struct TextureTable {
     pub wrap_v: Option<Placed<WrapMode>>,
     /// How values between pixels are found; `bilinear` if left out.
     pub filter: Option<Placed<FilterMode>>,
+    /// What is seen where the image is smaller than its pixels; `mip` if left out.
+    pub minify: Option<Placed<MinifyMode>>,
     /// How stored values map to light; `auto` if left out.
     pub encoding: Option<Placed<EncodingMode>>,
     /// Repetitions, a number or `[u, v]`; 1 if left out.
@@ -103,6 +109,18 @@ pub enum FilterMode {
     Nearest,
 }
 
+/// What is seen where the image is smaller than its pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MinifyMode {
+    /// The mean of all pixels that a look takes in.
+    Mip,
+    /// Linear between the four nearest pixels.
+    Bilinear,
+    /// The nearest pixel.
+    Nearest,
+}
+
 /// How stored values map to light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -126,10 +144,16 @@ impl TextureTable {
         if self.wrap.is_some() {
             without_effect("beside `wrap`", &wraps)?;
         }
+        if self.image.as_ref().is_some_and(|image| udim::is_tiled(image)) {
+            let wrap = [choice("wrap", self.wrap.as_ref())];
+            without_effect("on tiles", &wrap)?;
+            without_effect("on tiles", &wraps)?;
+        }
         if let Some(checker) = &self.checker {
             let image_keys = [
                 choice("wrap", self.wrap.as_ref()),
                 choice("filter", self.filter.as_ref()),
+                choice("minify", self.minify.as_ref()),
                 choice("encoding", self.encoding.as_ref()),
                 choice("made_by", self.made_by.as_ref()),
             ];
@@ -163,6 +187,15 @@ impl TextureTable {
         match self.filter.as_deref() {
             None | Some(FilterMode::Bilinear) => Filtering::Bilinear,
             Some(FilterMode::Nearest) => Filtering::Nearest,
+        }
+    }
+
+    /// Filtering of many pixels at once.
+    pub(super) fn minify(&self) -> Minify {
+        match self.minify.as_deref() {
+            None | Some(MinifyMode::Mip) => Minify::Mip,
+            Some(MinifyMode::Bilinear) => Minify::Bilinear,
+            Some(MinifyMode::Nearest) => Minify::Nearest,
         }
     }
 

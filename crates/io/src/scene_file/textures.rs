@@ -6,6 +6,7 @@ use super::material::{FindTexture, TextureUse};
 use super::texture::{EncodingMode, TextureTable};
 use crate::document::{Fault, Placed, Sources};
 use crate::error::Warning;
+use crate::udim;
 use heliostat_scene::texture::Pattern;
 use heliostat_scene::{Texture, TextureId};
 
@@ -74,10 +75,32 @@ impl<'a> Textures<'a> {
             TextureUse::Color => false,
             TextureUse::Data => true,
             // Alpha serves from the image that gives the colour, where it is read anyway.
+            TextureUse::Coverage if udim::is_tiled(file) => match self.assets.tiles(file, EncodingMode::Auto)
+            {
+                Ok(tiles) => !tiles.iter().any(|tile| tile.image.has_alpha()),
+                Err(_) => false,
+            },
             TextureUse::Coverage => match self.assets.image(file, EncodingMode::Auto, None) {
                 Ok(image) => !image.has_alpha(),
                 Err(_) => false,
             },
+        }
+    }
+
+    /// The pattern of many images; what is missing between them is told.
+    fn tiles(&mut self, table: &TextureTable, file: &Placed<String>, encoding: EncodingMode) -> Pattern {
+        match self.assets.tiles(file, encoding) {
+            Ok(tiles) => {
+                let numbers: Vec<u32> = tiles.iter().map(|tile| tile.number).collect();
+                if let Some(gaps) = udim::gaps(file, &numbers) {
+                    self.warnings.push(self.sources.warning(&Fault::new(gaps).or_at(file.span())));
+                }
+                Pattern::Tiles { tiles, filtering: table.filtering(), minify: table.minify() }
+            }
+            Err(fault) => {
+                self.warnings.push(self.sources.warning(&fault));
+                Pattern::Missing
+            }
         }
     }
 
@@ -86,11 +109,14 @@ impl<'a> Textures<'a> {
             return checker.pattern();
         }
         let Some(file) = &table.image else { return Pattern::Missing };
+        if udim::is_tiled(file) {
+            return self.tiles(table, file, encoding);
+        }
         let made_by = table.made_by.as_ref().map(|command| command.as_str());
         match self.assets.image(file, encoding, made_by) {
             Ok(image) => {
                 let [wrap_u, wrap_v] = table.wraps();
-                Pattern::Image { image, wrap_u, wrap_v, filtering: table.filtering() }
+                Pattern::Image { image, wrap_u, wrap_v, filtering: table.filtering(), minify: table.minify() }
             }
             Err(fault) => {
                 self.warnings.push(self.sources.warning(&fault));

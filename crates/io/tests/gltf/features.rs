@@ -5,7 +5,7 @@ use glam::{DVec3, Vec2, Vec3};
 use heliostat_io::gltf::Moment;
 use heliostat_scene::material::{Channel, Relief, Standard, Surface};
 use heliostat_scene::object::Geometry;
-use heliostat_scene::texture::{Filtering, Pattern, UvSet, Wrap};
+use heliostat_scene::texture::{Filtering, Minify, Pattern, UvSet, Wrap};
 use heliostat_scene::{Material, Rgb, Scene};
 
 /// Three corners and what else a model of one triangle needs.
@@ -132,9 +132,9 @@ fn wrong_files_name_their_place_and_mend() {
             "meshes[0].primitives[0].indices (accessors[0]): must hold Scalar; export the file again",
         ),
         (
-            r#", "extensionsRequired": ["KHR_draco_mesh_compression"]"#,
+            r#", "extensionsRequired": ["KHR_texture_basisu"]"#,
             "",
-            "extensionsRequired: needs the extension KHR_draco_mesh_compression, which is not read; decompress it with `gltf-transform copy in.glb out.glb`",
+            "extensionsRequired: needs the extension KHR_texture_basisu, which is not read; convert its textures with `gltf-transform ktxdecompress in.glb out.glb`",
         ),
     ] {
         let error = scene_at(triangle_bytes(json, primitive), &Moment::default()).expect_err(json);
@@ -234,10 +234,11 @@ fn a_broken_image_is_magenta_and_told_of_once() {
 fn textures_keep_their_samplers_sets_and_transforms() {
     let png = crate::made::everything();
     let (scene, _) = scene_at(png, &Moment::default()).expect("a scene");
-    let Pattern::Image { wrap_u, wrap_v, filtering, ref image } = scene.textures[0].pattern else {
+    let Pattern::Image { wrap_u, wrap_v, filtering, minify, ref image } = scene.textures[0].pattern else {
         panic!("no image")
     };
     assert_eq!((wrap_u, wrap_v, filtering), (Wrap::Repeat, Wrap::Repeat, Filtering::Bilinear));
+    assert_eq!(minify, Minify::Mip);
     assert_eq!((image.width, image.channels, scene.textures[0].uv.set), (1, 4, UvSet::First));
     assert_eq!(scene.materials[0].opacity.channel, Channel::A);
 }

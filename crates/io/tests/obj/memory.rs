@@ -24,7 +24,7 @@ impl MemoryFiles {
     pub(crate) fn image(&mut self, name: &str, channels: u8, values: &[u8]) {
         let width = (values.len() / usize::from(channels)) as u32;
         let samples = Samples::U8(values.to_vec());
-        let image = Image { width, height: 1, channels, encoding: Encoding::Srgb, samples };
+        let image = Image::new(width, 1, channels, Encoding::Srgb, samples);
         self.images.insert(name.to_owned(), Arc::new(image));
     }
 }

@@ -220,3 +220,40 @@ fn files_that_are_no_scenes_are_named() {
     let missing = path.with_file_name("none.toml");
     assert!(open(&missing, &OpenOptions::default()).unwrap_err().to_string().contains("file not found"));
 }
+
+/// A triangle in a glTF file of its own, three metres up by its node.
+const GLTF_TRIANGLE: &str = r#"{"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0, "translation": [0, 3, 0]}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}], "materials": [{"name": "red"}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri":
+        "data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]}"#;
+
+#[test]
+fn gltf_models_are_placed_as_one_group() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.gltf"), GLTF_TRIANGLE).unwrap();
+    let text = "camera = { look_at = 'a' }\n[[material]]\nname = 'red'\n[[model]]\nfile = 'a.gltf'\n\
+        translate = [5, 0, 0]\n[[model]]\nname = 'clay'\nfile = 'a.gltf'\nmaterial = 'red'\nvisible = false\n";
+    let path = folder.path().join("scene.toml");
+    std::fs::write(&path, text).unwrap();
+    let scene = open(&path, &Default::default()).unwrap().shot(1).unwrap().scene;
+    assert_eq!(scene.validate(), Ok(()));
+    assert_eq!((scene.objects.len(), scene.groups.len()), (2, 2));
+    assert_eq!(scene.objects[0].name, "a");
+    assert!(scene.objects[0].visible && !scene.objects[1].visible);
+    let materials = |group: usize| scene.groups[group].objects[0].materials[0].index();
+    assert_eq!(scene.materials[materials(0)].name, "a/red");
+    assert_eq!(scene.materials[materials(1)].name, "red");
+    assert!(matches!(scene.natural_integrator(), heliostat_scene::settings::IntegratorKind::Path));
+    // Where the model stands and where its node stands, together; the camera looks at the middle of the box.
+    let place = scene.objects[0].motion.first().matrix() * scene.groups[0].objects[0].motion.first().matrix();
+    assert_eq!(place.translation, glam::DVec3::new(5.0, 3.0, 0.0));
+    let view = -scene.cameras[0].motion.first().matrix3.z_axis;
+    assert!(view.distance(glam::DVec3::new(5.5, 3.5, 0.0).normalize()) < 1e-6, "{view}");
+    let refused = format!("{text}smooth_angle = 30\n");
+    std::fs::write(&path, refused).unwrap();
+    let error = open(&path, &Default::default()).and_then(|s| s.shot(1)).unwrap_err();
+    assert!(error.to_string().contains("`smooth_angle` has no effect on a glTF model"), "{error}");
+}

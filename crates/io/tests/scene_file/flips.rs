@@ -34,6 +34,7 @@ pub(crate) const FLIPS: &[Flip] = &[
     ("RenderTable", "region", "", "region = [1, 2, 3, 4]"),
     ("RenderTable", "samples", "", "samples = 3"),
     ("RenderTable", "integrator", "integrator = 'uv'", "integrator = 'ambient_occlusion'"),
+    ("RenderTable", "mip_maps", "", "mip_maps = false"),
     ("RenderTable", "filter", "filter = 'box'\nfilter_radius = 1", "filter = 'tent'\nfilter_radius = 1"),
     ("RenderTable", "filter_radius", "", "filter_radius = 1"),
     ("RenderTable", "seed", "", "seed = 7"),
@@ -113,6 +114,12 @@ pub(crate) const FLIPS: &[Flip] = &[
         "wrap_v",
         "name = 'a'\nimage = 'a.png'",
         "name = 'a'\nimage = 'a.png'\nwrap_v = 'mirror'",
+    ),
+    (
+        "TextureTable",
+        "minify",
+        "name = 'a'\nimage = 'a.png'",
+        "name = 'a'\nimage = 'a.png'\nminify = 'bilinear'",
     ),
     (
         "TextureTable",

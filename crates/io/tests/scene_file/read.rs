@@ -163,6 +163,7 @@ fn settings_survive_being_written_and_read() {
         transparent_shadows: true,
         depth_limits: DepthLimits { total: 9, diffuse: 0, glossy: 3, ..DepthLimits::default() },
         clamp_indirect: Some(7.5),
+        mip_maps: false,
         ao_samples: 5,
         ao_distance: 1.0e5,
         layers: Layers { uv: true, depth: true, ..Layers::default() },

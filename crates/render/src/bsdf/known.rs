@@ -33,7 +33,7 @@ fn is_even(material: &Material) -> bool {
 }
 
 fn sides(material: &Material, walks: bool) -> [Bsdf; 2] {
-    let at = TexturePoint { uv: Vec2::ZERO, uv1: Vec2::ZERO, local: Vec3::ZERO, coverage: 1.0 };
+    let at = TexturePoint::plain(Vec2::ZERO, Vec3::ZERO);
     let eval = MaterialEval { textures: &[], at };
     let around = Surroundings { walks, ..Surroundings::OPEN };
     [false, true].map(|enters| Bsdf::new(&material.surface, &eval, None, enters, Vec3::Z, around))

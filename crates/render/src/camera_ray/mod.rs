@@ -15,6 +15,7 @@
 mod picture;
 
 use crate::integrator::CameraRay;
+use crate::ray_cone::RayCone;
 use glam::{DAffine3, DMat3, DVec2, DVec3, Vec2, Vec3};
 use heliostat_geometry::Ray;
 use heliostat_geometry::warp::square_to_polygon;
@@ -31,6 +32,8 @@ pub(crate) struct CameraRays {
     lens: Option<Focus>,
     /// The focus, when a blur after rendering makes it.
     post: Option<Focus>,
+    /// Samples of a pixel, where rays have a width.
+    cones: Option<u32>,
 }
 
 impl CameraRays {
@@ -42,7 +45,13 @@ impl CameraRays {
             motion: camera.motion.clone(),
             lens: with(FocusMethod::Lens),
             post: with(FocusMethod::Post),
+            cones: None,
         }
+    }
+
+    /// The same camera whose rays are as wide as the share of a pixel that falls to one of `samples`.
+    pub(crate) fn with_cones(self, samples: u32) -> Self {
+        Self { cones: Some(samples), ..self }
     }
 
     /// The ray through `place`, in pixels from the upper left corner of the picture.
@@ -59,7 +68,20 @@ impl CameraRays {
             time,
             eye: pose.translation.as_vec3(),
             forward: -pose.matrix3.z_axis.as_vec3(),
+            cone: self.cones.map_or(RayCone::POINT, |samples| self.cone(place, &pinhole, samples)),
         })
+    }
+
+    /// How wide a pixel is where its ray starts and how its angle grows, by the rays of its neighbours to the right and below.
+    fn cone(&self, place: DVec2, ray: &LocalRay, samples: u32) -> RayCone {
+        let neighbours = [DVec2::X, DVec2::Y].map(|step| {
+            let other = self.picture.ray(place + step).or_else(|| self.picture.ray(place - step));
+            let other = other.unwrap_or(*ray);
+            (ray.origin.distance(other.origin), ray.dir.angle_between(other.dir))
+        });
+        let mean = |a: f64, b: f64| (a * b).sqrt() as f32;
+        let [(right, turn), (down, tilt)] = neighbours;
+        RayCone::of_pixel(mean(right, down), mean(turn, tilt), samples)
     }
 
     /// What the `Z` layer says of a point that `ray` met: perpendicular to the picture, or the distance where the camera

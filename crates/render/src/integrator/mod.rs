@@ -28,6 +28,7 @@ pub use volpath::VolPath;
 pub use whitted::Whitted;
 
 use crate::counters::RayCounters;
+use crate::ray_cone::RayCone;
 use crate::sampler::Sampler;
 use crate::world::World;
 use glam::{Vec2, Vec3};
@@ -46,6 +47,8 @@ pub struct CameraRay {
     pub eye: Vec3,
     /// Unit direction in which the camera looks at that time.
     pub forward: Vec3,
+    /// How much of the picture it stands for.
+    pub cone: RayCone,
 }
 
 impl CameraRay {

@@ -99,7 +99,7 @@ impl Integrator for Path {
     ) -> Sample {
         let mut found = Found::default();
         let mut way = Way {
-            passing: PassingRay::free(ray.ray),
+            passing: PassingRay::free(ray.ray).with_cone(ray.cone),
             around: world.around(ray.ray.origin, ray.time),
             weight: Rgb::ONE,
             scattered: None,

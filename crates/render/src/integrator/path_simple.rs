@@ -81,7 +81,7 @@ impl Integrator for PathSimple {
         let (first, is_through, time) = (None, false, ray.time);
         let mut walk = Walk { world, time, counters, transparent_background, first, is_through };
         let radiance = walk.radiance(Leg {
-            passing: PassingRay::free(ray.ray),
+            passing: PassingRay::free(ray.ray).with_cone(ray.cone),
             around: world.around(ray.ray.origin, ray.time),
             depth: 0,
             asked: None,

@@ -80,7 +80,7 @@ impl Integrator for Whitted {
     ) -> Sample {
         let mut found = Found::default();
         let mut branch = Branch {
-            passing: PassingRay::free(ray.ray),
+            passing: PassingRay::free(ray.ray).with_cone(ray.cone),
             weight: Rgb::ONE,
             depth: 0,
             inside: None,
@@ -173,7 +173,8 @@ impl Whitted {
         let split = point.split();
         if split.mirror != Rgb::ZERO {
             let reflected = Branch {
-                passing: PassingRay::free(surface.hit.spawn(split.mirror_dir)),
+                passing: PassingRay::free(surface.hit.spawn(split.mirror_dir))
+                    .with_cone(branch.passing.cone_at(surface)),
                 weight: branch.weight * split.mirror,
                 depth: branch.depth + 1,
                 from_camera: false,

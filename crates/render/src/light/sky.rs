@@ -184,7 +184,7 @@ mod tests {
         let mut values = vec![0.1; 16 * 8];
         (values[3 * 16 + 5], values[5 * 16 + 15]) = (50.0, 3.0);
         let samples = Samples::F32(values);
-        let image = Image { width: 16, height: 8, channels: 1, encoding: Encoding::Linear, samples };
+        let image = Image::new(16, 8, 1, Encoding::Linear, samples);
         Background::Image { image: Arc::new(image), intensity: Rgb::ONE, rotation: 0.7 }
     }
 

@@ -7,6 +7,7 @@
 
 use super::hit::SurfaceHit;
 use super::thing::Thing;
+use crate::ray_cone::RayCone;
 use glam::Vec3;
 use heliostat_geometry::error_bound::offset_origin;
 use heliostat_geometry::{Ray, SurfacePoint};
@@ -38,6 +39,8 @@ pub(crate) struct PassingRay {
     pub(crate) ray: Ray,
     /// Nothing for a ray that starts in free space or returns from a surface.
     pub(crate) crossing: Option<Crossing>,
+    /// How wide it is.
+    pub(crate) cone: RayCone,
 }
 
 /// The glass that a ray runs through.
@@ -74,28 +77,40 @@ impl Inside {
 }
 
 impl PassingRay {
-    /// A ray that starts in free space or returns from a surface.
+    /// A ray without width that starts in free space or returns from a surface.
     pub(crate) fn free(ray: Ray) -> Self {
-        Self { ray, crossing: None }
+        Self { ray, crossing: None, cone: RayCone::POINT }
     }
 
-    /// A ray in direction `dir` that goes on behind `hit`, which `self` found.
+    /// The same ray as wide as a cone.
+    #[inline]
+    pub(crate) fn with_cone(self, cone: RayCone) -> Self {
+        Self { cone, ..self }
+    }
+
+    /// Its cone at a hit that it found.
+    #[inline]
+    pub(crate) fn cone_at(&self, hit: &SurfaceHit) -> RayCone {
+        if self.cone.is_point() { self.cone } else { self.cone.after(hit.hit.t * self.ray.dir.length()) }
+    }
+
+    /// A ray in direction `dir` that goes on behind `hit`, which `self` found, with the cone that it had there.
     pub(crate) fn behind(&self, hit: &SurfaceHit, dir: Vec3) -> Self {
-        let at = hit.hit.at;
+        let (at, cone) = (hit.hit.at, self.cone_at(hit));
         let behind = at.spawn(dir);
-        let Some(thing) = hit.thing() else { return Self::free(behind) };
+        let Some(thing) = hit.thing() else { return Self::free(behind).with_cone(cone) };
         // Surfaces crossed before belong to this place too, when this one lies within their error.
         let before = self.crossing.filter(|crossing| crossing.is_at(&at));
         let (mut things, mut count) =
             before.map_or(([thing; MOST], 0), |crossing| (crossing.things, crossing.count));
         if count as usize == MOST {
-            return Self::free(behind);
+            return Self::free(behind).with_cone(cone);
         }
         things[count as usize] = thing;
         count += 1;
         let crossing = Crossing { things, count, at, behind: behind.origin };
         let origin = offset_origin(at.p, BEFORE * at.p_err, at.ng, -dir);
-        Self { ray: Ray::new(origin, dir), crossing: Some(crossing) }
+        Self { ray: Ray::new(origin, dir), crossing: Some(crossing), cone }
     }
 
     /// `ray`, which returns from a hit that `self` found: what was crossed in its place is met again.
@@ -105,6 +120,7 @@ impl PassingRay {
             Some(crossing) if crossing.is_at(&hit.hit.at) => Self::free(ray).behind(hit, ray.dir),
             _ => Self::free(ray),
         }
+        .with_cone(self.cone_at(hit))
     }
 
     /// The ray with which a thing is asked: `range` of the search so far, the origin behind things that are crossed. In `room`

@@ -111,7 +111,8 @@ impl Filter<'_> {
 
     fn eval_at(&self, surface: &SurfaceAt) -> MaterialEval<'_> {
         let SurfaceAt { hit, uv1, local, coverage, .. } = *surface;
-        MaterialEval { textures: &self.scene.textures, at: TexturePoint { uv: hit.uv, uv1, local, coverage } }
+        let at = TexturePoint { uv1, coverage, ..TexturePoint::plain(hit.uv, local) };
+        MaterialEval { textures: &self.scene.textures, at }
     }
 
     /// What the surface itself lets through without a bend, and its absorption.

@@ -34,6 +34,9 @@ pub struct SurfaceHit {
     pub local: Vec3,
     /// The second set of surface parameters; that of the hit where there is only one.
     pub uv1: Vec2,
+    /// What of the surface the ray stands for: the change of the surface parameters along the axes of an ellipse. Zero for a ray
+    /// without width.
+    pub footprint: [Vec2; 2],
     /// Interpolated vertex colour, where the mesh has one.
     pub color: Option<Rgb>,
     /// Interpolated vertex coverage; 1 where the mesh has none.
@@ -59,8 +62,8 @@ impl SurfaceHit {
 
     /// Where its textures are looked at.
     pub(crate) fn texture_point(&self) -> TexturePoint {
-        let Self { hit, uv1, local, coverage, .. } = *self;
-        TexturePoint { uv: hit.uv, uv1, local, coverage }
+        let Self { hit, uv1, local, coverage, footprint, .. } = *self;
+        TexturePoint { uv: hit.uv, uv1, local, coverage, footprint }
     }
 
     /// The material, unless the surface belongs to a light.

@@ -43,14 +43,17 @@ use crate::bsdf::KnownBsdfs;
 use crate::light::{LightTable, PreparedLight, Use};
 use body::{Parameters, SurfaceAt};
 use filter::Clear;
+use glam::Vec2;
 use group::{Groups, Look};
 use heliostat_geometry::{Aabb, Ray};
 use heliostat_index::{BspTree, MeshTree, TraversalCost};
 use heliostat_scene::object::Geometry;
 use heliostat_scene::settings::IntegratorKind;
+use heliostat_scene::texture::{Minify, Pattern};
 use heliostat_scene::{GroupId, Object, RenderSettings, Rgb, Scene};
 use kinds::{Shadow, parameters_of, shadow_of, visible_lights};
 use level::Level;
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use solid::{Content, Solid, Stock};
 use std::cell::Cell;
 use std::sync::Arc;
@@ -110,6 +113,9 @@ impl<'s> World<'s> {
     ) -> Result<Self, WorldError> {
         let census = error::check(scene)?;
         let trees = cache.trees(scene)?;
+        if settings.mip_maps {
+            make_mips(scene);
+        }
         let (used, clear) = used(settings);
         let ready = group::Settings { clear, layers: &settings.layers };
         let groups =
@@ -222,7 +228,8 @@ impl<'s> World<'s> {
         let thing = Thing { solid: found.primitive, part: found.data.part };
         let mut room = None;
         let ray = passing.seen_by(thing, &passing.ray, &mut room);
-        self.surface(thing.solid, ray, time, &found.data, parameters(thing.solid))
+        let surface = self.surface(thing.solid, ray, time, &found.data, parameters(thing.solid));
+        surface.map(|surface| marked(surface, passing))
     }
 
     /// The nearest meeting of a ray with one solid: where on the ray, and the rest in `met`.
@@ -274,7 +281,8 @@ impl<'s> World<'s> {
         self.with_thing(thing, time, |standing| {
             standing.body.closest(standing.place, ray, &mut met.meeting)
         })?;
-        self.surface(thing.solid, ray, time, &met, Parameters::Used)
+        let surface = self.surface(thing.solid, ray, time, &met, Parameters::Used);
+        surface.map(|surface| marked(surface, passing))
     }
 
     /// The lights that shine from somewhere.
@@ -353,7 +361,8 @@ impl<'s> World<'s> {
             Some(object) => Owner::Object { index: solid, material: object.material(slot) },
             None => Owner::Light(self.shining[solid as usize - self.scene.objects.len()]),
         };
-        SurfaceHit { hit, owner, part, local, uv1, color, coverage, triangle }
+        let footprint = [Vec2::ZERO; 2];
+        SurfaceHit { hit, owner, part, local, uv1, footprint, color, coverage, triangle }
     }
 
     /// Shows a thing at a moment to a closure; `None` where it has no place then.
@@ -391,6 +400,26 @@ impl<'s> World<'s> {
             Owner::Light(_) => None,
         }
     }
+}
+
+/// Makes the smaller copies of all images that ask for them, so that no ray waits for them.
+fn make_mips(scene: &Scene) {
+    scene.textures.par_iter().for_each(|texture| {
+        let asks = matches!(
+            texture.pattern,
+            Pattern::Image { minify: Minify::Mip, .. } | Pattern::Tiles { minify: Minify::Mip, .. }
+        );
+        if asks {
+            texture.images().for_each(|image| _ = image.level(1));
+        }
+    });
+}
+
+/// A surface that knows how wide the ray is that found it.
+#[inline]
+fn marked(mut surface: SurfaceHit, passing: &PassingRay) -> SurfaceHit {
+    passing.cone.mark(&mut surface, passing.ray.dir);
+    surface
 }
 
 /// What lights are for, and which transparent surfaces let light through.

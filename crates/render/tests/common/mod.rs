@@ -168,7 +168,13 @@ impl<'a> Looker<'a> {
     }
 
     pub(crate) fn count(&self, from: Vec3, dir: Vec3, sample: u32) -> (Sample, RayCounters) {
-        let ray = CameraRay { ray: Ray::new(from, dir), time: 0.0, eye: from, forward: dir };
+        let ray = CameraRay {
+            ray: Ray::new(from, dir),
+            time: 0.0,
+            eye: from,
+            forward: dir,
+            cone: heliostat_render::RayCone::POINT,
+        };
         let mut counters = RayCounters::default();
         let mut sampler = Sampler::new(self.seed, [0, 0], sample);
         (self.integrator.radiance(&self.world, &ray, &mut sampler, &mut counters), counters)

@@ -52,7 +52,13 @@ fn a_lamp_that_moves_with_its_group_lights_from_where_it_is() {
     let lit = |time: f32, x: f32| {
         let dir = Vec3::new(0.0, -0.5, -0.2);
         let ray = heliostat_geometry::Ray::new(Vec3::new(x, 0.5, 0.2), dir);
-        let ray = heliostat_render::CameraRay { ray, time, eye: ray.origin, forward: dir };
+        let ray = heliostat_render::CameraRay {
+            ray,
+            time,
+            eye: ray.origin,
+            forward: dir,
+            cone: heliostat_render::RayCone::POINT,
+        };
         let mut sampler = heliostat_render::Sampler::new(0, [0, 0], 0);
         let integrator = heliostat_render::integrator::create(&stage.settings);
         integrator.radiance(&looker.world, &ray, &mut sampler, &mut Default::default()).radiance.y

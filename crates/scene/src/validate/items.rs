@@ -31,6 +31,7 @@ pub(super) fn textures<'a>(scene: &'a Scene, c: &mut Collector<'a>) {
         );
         match &texture.pattern {
             Pattern::Image { image, .. } => check_image(image, c),
+            Pattern::Tiles { tiles, .. } => tiles.iter().for_each(|tile| check_image(&tile.image, c)),
             Pattern::Checker { even, odd, .. } => {
                 c.color("the even colour", *even);
                 c.color("the odd colour", *odd);
@@ -44,6 +45,7 @@ fn check_image(image: &Image, c: &mut Collector<'_>) {
     let count = match &image.samples {
         Samples::U8(samples) => samples.len(),
         Samples::U16(samples) => samples.len(),
+        Samples::F16(samples) => samples.len(),
         Samples::F32(samples) => samples.len(),
     };
     let expected = (image.width as usize)

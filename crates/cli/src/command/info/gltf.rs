@@ -41,6 +41,9 @@ pub(super) fn text(contents: &Contents) -> String {
     if contents.points_and_lines > 0 {
         ignored.push(format!("{} primitives of points or lines", contents.points_and_lines));
     }
+    if contents.unblurred_meshes {
+        ignored.push("motion blur of skins and morph targets".to_owned());
+    }
     line("ignored", list(&ignored));
     text
 }

@@ -61,6 +61,16 @@ fn of_frame(path: &Path, frame: &Frame) -> Value {
     })
 }
 
+/// The form of the samples of an image.
+pub(super) fn depth(image: &Image) -> &'static str {
+    match image.samples {
+        Samples::U8(_) => "8 bit",
+        Samples::U16(_) => "16 bit",
+        Samples::F16(_) => "half",
+        Samples::F32(_) => "float",
+    }
+}
+
 fn of_image(path: &Path, image: &Image) -> Value {
     let names: &[&str] = match image.channels {
         1 => &["Y"],
@@ -68,11 +78,7 @@ fn of_image(path: &Path, image: &Image) -> Value {
         3 => &["R", "G", "B"],
         _ => &["R", "G", "B", "A"],
     };
-    let depth = match image.samples {
-        Samples::U8(_) => "8 bit",
-        Samples::U16(_) => "16 bit",
-        Samples::F32(_) => "float",
-    };
+    let depth = depth(image);
     let encoding = match image.encoding {
         Encoding::Srgb => "sRGB",
         Encoding::Linear => "linear",
@@ -98,6 +104,7 @@ fn stored(image: &Image, channel: usize) -> impl Iterator<Item = f32> {
         match &image.samples {
             Samples::U8(v) => f32::from(v[i]) / 255.0,
             Samples::U16(v) => f32::from(v[i]) / 65535.0,
+            Samples::F16(v) => v[i].to_f32(),
             Samples::F32(v) => v[i],
         }
     })

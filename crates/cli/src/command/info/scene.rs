@@ -1,5 +1,6 @@
 //! What is in a scene or a model.
 
+use super::image::depth;
 use super::{Info, gltf};
 use crate::diagnose::Failure;
 use crate::exit::Exit;
@@ -12,6 +13,7 @@ use heliostat_scene::object::Geometry;
 use heliostat_scene::texture::Pattern;
 use heliostat_scene::{Census, Group, GroupId, Object, Scene};
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -38,6 +40,7 @@ fn json(path: &Path, shot: &Shot, frames: Option<[i32; 2]>, frame_rate: f64) -> 
     let sum = |count: fn(&Tally) -> u64| {
         scene.objects.iter().map(tally).fold(0_u64, |sum, tally| sum.saturating_add(count(&tally)))
     };
+    let memory = scene.texture_bytes();
     let bounds = scene.meshes.iter().fold(Aabb::EMPTY, |b, m| b.union(m.bounds()));
     Ok(json!({
         "path": path.to_string_lossy(),
@@ -58,6 +61,7 @@ fn json(path: &Path, shot: &Shot, frames: Option<[i32; 2]>, frame_rate: f64) -> 
         "cameras": scene.cameras.iter().map(|c| c.name.as_str()).collect::<Vec<_>>(),
         "materials": scene.materials.iter().map(|m| m.name.as_str()).collect::<Vec<_>>(),
         "textures": scene.textures.iter().map(|t| texture(&t.name, &t.pattern)).collect::<Vec<_>>(),
+        "texture_memory": { "bytes": memory.pixels, "mip_bytes": memory.mips },
         "warnings": warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
     }))
 }
@@ -116,7 +120,14 @@ fn texture(name: &str, pattern: &Pattern) -> Value {
     match pattern {
         Pattern::Image { image, .. } => json!({
             "name": name, "kind": "image", "size": [image.width, image.height],
-            "channels": image.channels, "bytes": image.bytes(),
+            "channels": image.channels, "depth": depth(image),
+            "bytes": image.bytes(), "mip_bytes": image.mip_bytes(),
+        }),
+        Pattern::Tiles { tiles, .. } => json!({
+            "name": name, "kind": "tiles", "tiles": tiles.iter().map(|tile| tile.number).collect::<Vec<_>>(),
+            "depth": tiles.first().map(|tile| depth(&tile.image)),
+            "bytes": tiles.iter().map(|tile| tile.image.bytes()).sum::<usize>(),
+            "mip_bytes": tiles.iter().map(|tile| tile.image.mip_bytes()).sum::<usize>(),
         }),
         Pattern::Checker { .. } => json!({ "name": name, "kind": "checker" }),
         Pattern::Missing => json!({ "name": name, "kind": "missing" }),
@@ -158,6 +169,13 @@ fn text(shot: &Shot, json: &Value) -> String {
     line("cameras", names(scene.cameras.iter().map(|c| c.name.as_str())));
     line("materials", names(scene.materials.iter().map(|m| m.name.as_str())));
     line("textures", names(scene.textures.iter().map(|t| t.name.as_str())));
+    let memory = scene.texture_bytes();
+    if memory.pixels > 0 {
+        let depths: BTreeSet<_> = scene.textures.iter().flat_map(|t| t.images()).map(|i| depth(i)).collect();
+        let depths = depths.into_iter().collect::<Vec<_>>().join(", ");
+        let [pixels, mips] = [memory.pixels, memory.mips].map(mebibytes);
+        line("", format!("{pixels} in {depths}, {mips} of smaller copies when rendered"));
+    }
     line("lights", names(scene.lights.iter().map(|l| l.name.as_str())));
     line("objects", table::count(scene.objects.len()));
     let mut objects = Table::new(["name", "kind", "triangles"]);
@@ -174,6 +192,10 @@ fn text(shot: &Shot, json: &Value) -> String {
         let _ = writeln!(text, "warning: {warning}");
     }
     text
+}
+
+fn mebibytes(bytes: usize) -> String {
+    format!("{:.1} MiB", bytes as f64 / f64::from(1 << 20))
 }
 
 pub(super) fn names<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {

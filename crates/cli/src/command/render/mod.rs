@@ -7,6 +7,7 @@ mod trace;
 
 use crate::args::RenderArgs;
 use crate::args::value::{FrameList, MOST_FRAMES};
+use crate::denoise::Denoiser;
 use crate::diagnose::Failure;
 use crate::exit::Exit;
 use crate::output::{Output, check_writable, outputs};
@@ -32,6 +33,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Exit, Failure> {
     // Hours of rendering must not end at a folder that is not there.
     let planned = outputs.iter().map(|output| output.path(0));
     planned.chain(args.run.stats.clone()).try_for_each(|path| check_writable(&path))?;
+    let denoiser = args.output.denoise.then(|| Denoiser::find(args.output.oidn.as_deref())).transpose()?;
     let signals = Signals::install()?;
     let picture = &args.picture;
     let (camera, variant) = (picture.camera.as_deref(), picture.variant.as_deref());
@@ -45,6 +47,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<Exit, Failure> {
         source: &source,
         signals: &signals,
         progress: &progress,
+        denoiser,
         cache: TreeCache::default(),
         told: HashSet::new(),
         report,
@@ -85,6 +88,7 @@ struct Run<'a> {
     source: &'a Source,
     signals: &'a Signals,
     progress: &'a Progress,
+    denoiser: Option<Denoiser>,
     cache: TreeCache,
     /// Warnings that were told; every frame has them again.
     told: HashSet<String>,
@@ -129,6 +133,7 @@ impl Run<'_> {
             saved = self.save(&shot, &mut traced, frame)?;
         }
         let save_seconds = save_start.elapsed().as_secs_f64();
+        self.report.add_textures(shot.scene.texture_bytes());
         self.report.add(frame, &traced, &saved, load_seconds, save_seconds);
         self.progress.time(start.elapsed());
         Ok(())
@@ -136,6 +141,9 @@ impl Run<'_> {
 
     /// Writes all outputs of a frame and tells their names.
     fn save(&self, shot: &Shot, traced: &mut Traced, frame: i32) -> Result<Vec<PathBuf>, Failure> {
+        if let Some(denoiser) = &self.denoiser {
+            denoiser.apply(&mut traced.frame, shot.settings.threads)?;
+        }
         let style = save::Style::new(&self.args.output, shot);
         style.prepare(&mut traced.frame);
         if self.source.frames().is_some() {

@@ -6,6 +6,7 @@ use crate::diagnose::Failure;
 use crate::memory;
 use heliostat_io::atomic::write_atomically;
 use heliostat_render::{RayCounters, RenderStats};
+use heliostat_scene::scene::TextureBytes;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -21,6 +22,7 @@ pub(super) struct Report {
     sum: Sum,
     /// Of the frame that was rendered last.
     index: Vec<Value>,
+    textures: TextureBytes,
 }
 
 /// Sums over the frames.
@@ -56,6 +58,7 @@ impl Report {
             warnings: Vec::new(),
             sum: Sum { seconds: opened, ..Sum::default() },
             index: Vec::new(),
+            textures: TextureBytes::default(),
         }
     }
 
@@ -83,6 +86,13 @@ impl Report {
         self.sum.add(stats, seconds);
     }
 
+    /// The images of a frame take so much memory; the frame with the most counts.
+    pub(super) fn add_textures(&mut self, textures: TextureBytes) {
+        if textures.pixels > self.textures.pixels {
+            self.textures = textures;
+        }
+    }
+
     /// Something that the user was told.
     pub(super) fn warn(&mut self, warning: String) {
         self.warnings.push(warning);
@@ -107,6 +117,7 @@ impl Report {
             "non_finite_samples": self.sum.non_finite,
             "rays": rays_json(&self.sum.rays),
             "rays_per_second": per_second(&self.sum.rays, self.sum.seconds.trace),
+            "textures": { "bytes": self.textures.pixels, "mip_bytes": self.textures.mips },
             "peak_memory_bytes": memory::peak(),
             "index": self.index,
             "warnings": self.warnings,

@@ -30,6 +30,10 @@ pub(super) fn apply(args: &RenderArgs, shot: &mut Shot) -> Result<(), Failure> {
     if !picture.aov.is_empty() {
         settings.layers = layers(&picture.aov);
     }
+    if output.denoise {
+        settings.layers.albedo = true;
+        settings.layers.normal = true;
+    }
     let pixels = settings.pixels();
     if pixels.x0 >= pixels.x1 || pixels.y0 >= pixels.y1 {
         let (width, height) = (settings.width, settings.height);

@@ -23,7 +23,7 @@ impl Raster {
         let image = read_image(path, &limits)?;
         let display = match image.samples {
             Samples::U8(_) | Samples::U16(_) => image,
-            Samples::F32(_) => {
+            Samples::F16(_) | Samples::F32(_) => {
                 let frame = read_frame(path, &limits)?;
                 let options = PngOptions { view, ..PngOptions::default() };
                 let png = encode_png(&frame, &options).map_err(|e| LoadError::new(path, e))?;
@@ -41,6 +41,7 @@ fn rgb(image: &Image) -> Vec<u8> {
         Samples::U8(v) => v[i],
         // 65535 is 255 times 257.
         Samples::U16(v) => ((u32::from(v[i]) + 128) / 257) as u8,
+        Samples::F16(v) => (v[i].to_f32().clamp(0.0, 1.0) * 255.0).round() as u8,
         Samples::F32(v) => (v[i].clamp(0.0, 1.0) * 255.0).round() as u8,
     };
     let count = image.width as usize * image.height as usize;
@@ -60,7 +61,7 @@ mod tests {
     use heliostat_scene::image::Encoding;
 
     fn image(channels: u8, samples: Samples) -> Image {
-        Image { width: 1, height: 1, channels, encoding: Encoding::Srgb, samples }
+        Image::new(1, 1, channels, Encoding::Srgb, samples)
     }
 
     #[test]

@@ -58,6 +58,24 @@ impl Component {
         }
     }
 
+    /// The bytes of a number; a whole one is the nearest that there is.
+    pub(in crate::gltf) fn stored(self, number: f32) -> impl Iterator<Item = u8> {
+        let bits = match self {
+            Self::I8 => u32::from((number.round() as i8).cast_unsigned()),
+            Self::U8 => u32::from(number.round() as u8),
+            Self::I16 => u32::from((number.round() as i16).cast_unsigned()),
+            Self::U16 => u32::from(number.round() as u16),
+            Self::U32 => number.round() as u32,
+            Self::F32 => number.to_bits(),
+        };
+        bits.to_le_bytes().into_iter().take(self.size())
+    }
+
+    /// The bytes of a whole number, cut to what fits.
+    pub(in crate::gltf) fn whole(self, number: u32) -> impl Iterator<Item = u8> {
+        number.to_le_bytes().into_iter().take(self.size())
+    }
+
     /// The same with the largest whole number as 1, and the smallest as -1.
     pub(super) fn share(self, bytes: &[u8]) -> f32 {
         let largest = match self {

@@ -37,6 +37,11 @@ impl Document {
         let json = all.get(index).ok_or_else(|| Flaw::dangling(place, "accessors", index, all.len()))?;
         let place = format!("{place} (accessors[{index}])");
         let layout = Layout::of(json, &place)?;
+        if let Some((bytes, count)) =
+            self.unpacked_elements(index, layout.component, layout.components, &place)?
+        {
+            return Ok(Accessor { bytes, layout, count, normalized: json.normalized, place });
+        }
         let too_many =
             || Flaw::new(&place, format!("has {} elements", json.count.0)).with_help("export the file again");
         let count = usize::try_from(json.count.0).map_err(|_| too_many())?;

@@ -39,6 +39,12 @@ pub(super) fn has_alpha(document: &Document, material: Option<usize>) -> bool {
     json.is_some_and(alpha::counts)
 }
 
+/// The set of coordinates of the normal map of a material, if it has one.
+pub(super) fn normal_map_set(document: &Document, material: Option<usize>) -> Option<usize> {
+    let normal = material.and_then(|index| document.root.materials.get(index))?.normal_texture.as_ref()?;
+    Some(normal.tex_coord as usize)
+}
+
 /// Reads a material; `None` is what primitives without one have.
 ///
 /// # Errors

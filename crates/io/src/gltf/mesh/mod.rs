@@ -4,6 +4,7 @@ mod attributes;
 mod morph;
 mod primitive;
 mod skin;
+mod tangents;
 
 pub(super) use primitive::{PrimitiveKey, ShapeOf};
 pub(super) use skin::{Bones, affine};
@@ -56,6 +57,9 @@ pub(super) fn read(
     mesh.normals.iter_mut().for_each(|n| *n = n.normalize_or_zero());
     for t in &mut mesh.tangents {
         *t = t.truncate().normalize_or_zero().extend(if t.w < 0.0 { -1.0 } else { 1.0 });
+    }
+    if let Some(set) = shape.normal_map.filter(|_| mesh.tangents.is_empty()) {
+        tangents::add(&mut mesh, set);
     }
     mesh.validate()
         .map_err(|error| Flaw::new(place, error.to_string()).with_help("export the file again"))?;

@@ -12,6 +12,8 @@ use gltf::json::validation::Checked;
 pub(in crate::gltf) struct ShapeOf<'a> {
     /// Whether the alpha of vertex colours counts.
     pub(in crate::gltf) alpha: bool,
+    /// The set of coordinates of its normal map, if it has one.
+    pub(in crate::gltf) normal_map: Option<usize>,
     /// Weights of the morph targets.
     pub(in crate::gltf) weights: &'a [f32],
     /// The bones that bend it.
@@ -27,6 +29,7 @@ pub(in crate::gltf) struct PrimitiveKey {
     targets: Vec<[Option<usize>; 3]>,
     weights: Vec<u32>,
     alpha: bool,
+    normal_map: Option<usize>,
 }
 
 impl PrimitiveKey {
@@ -50,6 +53,7 @@ impl PrimitiveKey {
             targets: targets.map(numbers).collect(),
             weights: weights.collect(),
             alpha: shape.alpha,
+            normal_map: shape.normal_map,
         }
     }
 }

@@ -1,4 +1,4 @@
-//! `EXT_meshopt_compression`: buffer views that are packed by what their numbers have in common.
+//! `EXT_meshopt_compression`, and `KHR_meshopt_compression` as far as it is the same: buffer views that are packed by what their numbers have in common.
 //!
 //! # Source
 //! Khronos, "`EXT_meshopt_compression`", appendix A (bitstream) and B (filters); Kapoulkine, "meshoptimizer", whose encoder
@@ -16,6 +16,9 @@ use serde::Deserialize;
 
 /// Of unpacked bytes that one packed byte may stand for at most; runs of equal vertices come to some two hundred.
 const MOST_GAIN: u64 = 1 << 12;
+
+/// The first byte of numbers in version 1 of the codec.
+const SECOND_VERSION: u8 = 0xa1;
 
 /// What is in the packed bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
@@ -61,7 +64,11 @@ impl Document {
         let json = self.root.buffer_views.get(index);
         let others = json.and_then(|view| Some(&view.extensions.as_ref()?.others));
         let at = format!("bufferViews[{index}]");
-        match extension::<Packed>(others, "EXT_meshopt_compression", &at)? {
+        let packed = match extension::<Packed>(others, "KHR_meshopt_compression", &at)? {
+            None => extension::<Packed>(others, "EXT_meshopt_compression", &at)?,
+            packed => packed,
+        };
+        match packed {
             None => {
                 let (bytes, view) = self.raw_view(index, place)?;
                 Ok((bytes, view.byte_stride.map(|stride| stride.0)))
@@ -83,6 +90,9 @@ impl Document {
         let fits = size.is_some_and(|size| size <= packed.byte_length.saturating_mul(MOST_GAIN));
         if !fits {
             return Err(damaged("cannot hold so many numbers"));
+        }
+        if packed.mode == Mode::Attributes && bytes.first() == Some(&SECOND_VERSION) {
+            return Err(damaged("are in version 1 of the codec, which is not read"));
         }
         let (count, stride) = (packed.count as usize, packed.byte_stride);
         let unpacked = match packed.mode {
