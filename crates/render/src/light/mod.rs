@@ -4,6 +4,7 @@
 //! stands in between is asked by [`direct`]. Whitted's recursion asks every light; paths ask one, and [`whole`] chooses which.
 
 mod area;
+mod beams;
 mod bundle;
 mod choice;
 mod cluster;
@@ -11,6 +12,7 @@ mod delta;
 pub(crate) mod direct;
 mod emitter;
 mod flat;
+mod lamps;
 mod sky;
 mod sphere;
 mod spherical_rectangle;
@@ -28,7 +30,10 @@ use delta::{DirectionalLight, PointLight};
 use glam::{Vec2, Vec3};
 use heliostat_geometry::{Aabb, SurfacePoint};
 use heliostat_scene::light::LightKind;
-use heliostat_scene::{Light, Rgb, Scene};
+use heliostat_scene::settings::LightChoice;
+use heliostat_scene::object::Geometry;
+use heliostat_scene::{Light, MaterialId, Object, Rgb, Scene};
+use lamps::Lamps;
 use sky::Sky;
 use std::borrow::Cow;
 
@@ -124,22 +129,22 @@ impl<'s> PreparedLight<'s> {
         }
     }
 
-    /// The light that arrives at `p` by the random numbers `u`; `None` where nothing comes this way.
+    /// The light that arrives at `p` from a piece of it, by the random numbers `u`; `None` where nothing comes this way.
     #[inline]
-    pub(crate) fn sample(&self, p: Vec3, u: Vec2, time: f32) -> Option<LightSample> {
+    pub(crate) fn sample(&self, p: Vec3, piece: usize, u: Vec2, time: f32) -> Option<LightSample> {
         match &self.source {
             Source::Point(light) => light.sample(p),
             Source::Directional(light) => Some(light.sample(u)),
-            Source::Area(light) => light.sample(p, u, time),
+            Source::Area(light) => light.sample(p, piece, u, time),
         }
     }
 
-    /// What a choice among lights has to know of it.
-    fn reach(&self) -> Reach {
+    /// What a choice among lights has to know of each piece of it.
+    fn reaches(&self) -> Vec<Reach> {
         match &self.source {
-            Source::Point(light) => light.reach(),
-            Source::Directional(light) => light.reach(),
-            Source::Area(light) => light.reach(),
+            Source::Point(light) => vec![light.reach()],
+            Source::Directional(light) => vec![light.reach()],
+            Source::Area(light) => light.reaches(),
         }
     }
 }
@@ -172,35 +177,49 @@ impl<'s> LightTable<'s> {
     /// The lights of a scene whose ids are valid.
     ///
     /// `lamps` are the parts of groups that may shine.
-    pub(crate) fn new(scene: &'s Scene, lamps: Vec<Lamp<'s>>, used: Use) -> Self {
+    pub(crate) fn new(scene: &'s Scene, lamps: Vec<Lamp<'s>>, used: Use, choice: LightChoice) -> Self {
         let ambient = |light: &&Light| matches!(light.kind, LightKind::Ambient);
         let ambient = scene.lights.iter().filter(ambient).map(|light| light.intensity).sum();
         let (mut lights, mut owners) = (Vec::new(), Owners::default());
+        let mut stock = Lamps::new(scene, used, shining(scene) + lamps.len());
         for light in &scene.lights {
-            let prepared = prepare(scene, light, used);
+            let prepared = prepare(&mut stock, light);
             owners.declared.push(prepared.is_some().then_some(lights.len()));
             lights.extend(prepared);
         }
         let objects = (0..).zip(&scene.objects);
-        let objects = objects.map(|(i, object)| ((i, 0), AreaLight::of_object(scene, object)));
-        let parts = lamps.into_iter().map(|lamp| (lamp.owner, AreaLight::of_part(scene, lamp)));
-        for (owner, light) in objects.chain(parts) {
-            let Some(light) = light else { continue };
+        let mut add = |owner, light: Option<AreaLight<'s>>| {
+            let Some(light) = light else { return };
             owners.shining.push((owner, lights.len()));
             lights.push(PreparedLight::new(SHINING_OBJECT_SAMPLES, Source::Area(light)));
-        }
+        };
+        objects.for_each(|(i, object)| add((i, 0), AreaLight::of_object(&mut stock, object)));
+        lamps.into_iter().for_each(|lamp| add(lamp.owner, AreaLight::of_part(&mut stock, lamp)));
         owners.shining.sort_unstable_by_key(|&(owner, _)| owner);
         let is_sun =
             |light: &PreparedLight<'_>| matches!(&light.source, Source::Directional(sun) if sun.is_wide());
         let suns = (0..lights.len()).filter(|&i| is_sun(&lights[i])).collect();
         let sky = Sky::new(&scene.background, ambient, used);
-        let sampler = whole::sampler(&lights, &sky);
+        let sampler = whole::sampler(&lights, &sky, choice);
         Self { ambient, lights, sky, suns, owners, sampler }
     }
 }
 
+/// How many objects and lights of a scene may be meshes that shine.
+fn shining(scene: &Scene) -> usize {
+    let shines = |object: &&Object| {
+        let emits = |id: &MaterialId| !scene.materials[id.index()].surface.emission().is_zero();
+        matches!(object.geometry, Geometry::Mesh(_)) && object.materials.iter().any(emits)
+    };
+    let is_area = |light: &&Light| {
+        matches!(&light.kind, LightKind::Area { geometry: Geometry::Mesh(_), .. })
+    };
+    scene.objects.iter().filter(shines).count() + scene.lights.iter().filter(is_area).count()
+}
+
 /// A light that shines from somewhere, made ready; `None` for an ambient or a dark one.
-fn prepare<'s>(scene: &'s Scene, light: &'s Light, used: Use) -> Option<PreparedLight<'s>> {
+fn prepare<'s>(stock: &mut Lamps<'s>, light: &'s Light) -> Option<PreparedLight<'s>> {
+    let used = stock.used;
     if light.intensity == Rgb::ZERO {
         return None;
     }
@@ -216,7 +235,7 @@ fn prepare<'s>(scene: &'s Scene, light: &'s Light, used: Use) -> Option<Prepared
         LightKind::Directional { direction, angle } => {
             Source::Directional(DirectionalLight::new(light.intensity, *direction, *angle, used))
         }
-        LightKind::Area { .. } => Source::Area(AreaLight::of_light(scene, light, used)?),
+        LightKind::Area { .. } => Source::Area(AreaLight::of_light(stock, light)?),
     };
     Some(PreparedLight::new(light.samples, source))
 }

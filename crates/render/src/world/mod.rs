@@ -124,7 +124,7 @@ impl<'s> World<'s> {
             stoppers: candidates(|shadow| shadow.stops),
             filters: candidates(|shadow| shadow.filters),
             known_bsdfs: KnownBsdfs::new(scene),
-            lights: LightTable::new(scene, lamps(scene, &groups), used),
+            lights: LightTable::new(scene, lamps(scene, &groups), used, settings.light_choice),
             has_filters: shadows.iter().any(|shadow| shadow.filters),
             all_visible: scene.objects.iter().all(|object| object.visible),
             groups: in_order(scene, groups),
