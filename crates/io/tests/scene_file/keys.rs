@@ -44,6 +44,7 @@ fn template(table: &str) -> &'static str {
         "FocusTable" => "object = [{ sphere = { radius = 2 }, translate = [0, 0, -9] }]\n[camera.focus]\n@",
         "DepthLimitsTable" => "camera = {}\n[render.depth_limits]\n@",
         "EnvironmentTable" => "camera = {}\n[environment]\n@",
+        "SkyTable" => "camera = {}\n[environment.sky]\n@",
         "GradientTable" => "camera = {}\n[environment.gradient]\n@",
         "TextureTable" => "camera = {}\n[[texture]]\n@",
         "CheckerTable" => "camera = {}\n[[texture]]\nname = 't'\n[texture.checker]\n@",
@@ -99,6 +100,7 @@ fn outcome(text: &str) -> String {
     folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\ng one\nf 1 2 3\ng two\nf 1 3 4\n");
     folder.write("c.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n");
     folder.write("b.obj", "v 0 0 0\nv 2 0 0\nv 0 2 0\nf 1 2 3\n");
+    folder.write("a.ies", "TILT=NONE\n1 1 1 2 2 1 1 0 0 0 1 1 1\n0 90\n0 90\n9 4 6 2\n");
     for (name, value) in [("a.png", 50_u8), ("b.png", 200)] {
         let path = folder.write(name, "");
         image::RgbImage::from_pixel(2, 1, image::Rgb([value; 3])).save(&path).unwrap();

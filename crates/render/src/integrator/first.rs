@@ -2,7 +2,7 @@
 
 use super::{CameraRay, FirstHit, Sample};
 use crate::shading::ShadingPoint;
-use crate::world::{Owner, PassingRay, SurfaceHit, World};
+use crate::world::{Eye, Owner, PassingRay, SurfaceHit, World};
 use glam::Vec3;
 use heliostat_scene::Rgb;
 
@@ -23,7 +23,7 @@ impl Sample {
 pub(super) fn first_hit(world: &World<'_>, ray: &CameraRay) -> Option<(SurfaceHit, FirstHit)> {
     let mut passing = PassingRay::free(ray.ray);
     loop {
-        let surface = world.seen(&passing, ray.time, true)?;
+        let surface = world.seen(&passing, ray.time, Eye::Camera)?;
         let (object, material) = match surface.owner {
             Owner::Object { index, material } => (index, material),
             Owner::Light(_) => return Some((surface, on_light(&surface, ray.ray.dir))),

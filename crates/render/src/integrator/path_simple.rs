@@ -20,7 +20,7 @@ use crate::counters::RayCounters;
 use crate::light::{self, Lookout};
 use crate::path_point::{Covering, PathPoint};
 use crate::sampler::Sampler;
-use crate::world::{Inside, Owner, PassingRay, World};
+use crate::world::{Eye, Inside, Owner, PassingRay, World};
 use heliostat_scene::{RenderSettings, Rgb};
 
 /// From so many scatterings on paths end by chance.
@@ -97,7 +97,7 @@ impl Walk<'_, '_> {
     /// The radiance that a leg sees.
     fn radiance(&mut self, mut leg: Leg) -> Rgb {
         let world = self.world;
-        let Some(surface) = &world.seen_inside(&leg.passing, leg.inside, self.time, leg.from_camera) else {
+        let Some(surface) = &world.seen_inside(&leg.passing, leg.inside, self.time, leg.eye()) else {
             return self.beyond(&leg);
         };
         let dir = leg.passing.ray.dir;
@@ -172,13 +172,22 @@ impl Walk<'_, '_> {
         let (lights, dir) = (self.world.light_table(), leg.passing.ray.dir.normalize());
         match &leg.asked {
             Some(from) => lights.beyond(from, dir, |_| 1.0),
-            None if leg.passed_only => lights.sky.seen(dir),
+            None if leg.passed_only => lights.seen(dir),
             None => lights.mirrored(dir),
         }
     }
 }
 
 impl Leg {
+    /// Who looks along it.
+    fn eye(&self) -> Eye {
+        match (self.from_camera, &self.asked) {
+            (true, _) => Eye::Camera,
+            (false, Some(_)) => Eye::Scattered,
+            (false, None) => Eye::Any,
+        }
+    }
+
     /// Whether the light of that surface was asked for where the ray comes from.
     fn has_asked_for(&self, world: &World<'_>, surface: &crate::world::SurfaceHit) -> bool {
         self.asked.is_some_and(|from| world.light_table().density(&from, surface) == f32::INFINITY)

@@ -98,7 +98,7 @@ impl Beams {
         let cos = -scale * n.dot(way);
         let arriving = Angle::of_cos(cos.max(side * cos)).less(seen);
         let share = leaving.cos.max(0.0) * arriving.cos.max(0.0);
-        let share = if leaving.cos <= self.least_cos[i] { 0.0 } else { share };
+        let share = if leaving.cos < self.least_cos[i] { 0.0 } else { share };
         strength * if is_inside { 1.0 } else { share }
     }
 }

@@ -23,6 +23,7 @@ mod whole;
 
 pub(crate) use whole::Lookout;
 
+use crate::atmosphere::SunDisk;
 use crate::world::{Hull, Lamp};
 use area::{AreaLight, FlatLamp};
 use choice::{LightSampler, Reach};
@@ -30,12 +31,14 @@ use delta::{DirectionalLight, PointLight};
 use glam::{Vec2, Vec3};
 use heliostat_geometry::{Aabb, SurfacePoint};
 use heliostat_scene::light::LightKind;
-use heliostat_scene::settings::LightChoice;
 use heliostat_scene::object::Geometry;
+use heliostat_scene::settings::LightChoice;
 use heliostat_scene::{Light, MaterialId, Object, Rgb, Scene};
 use lamps::Lamps;
 use sky::Sky;
 use std::borrow::Cow;
+use std::f32::consts::FRAC_1_PI;
+use std::sync::Arc;
 
 /// Shadow rays per point towards an object whose material shines.
 const SHINING_OBJECT_SAMPLES: u32 = 16;
@@ -92,6 +95,8 @@ enum Source<'s> {
     Point(PointLight),
     Directional(DirectionalLight),
     Area(AreaLight<'s>),
+    /// The disc of the sun, with the factor by which it lights: 1, but for Whitted the share of a surface that answers it.
+    Sun(SunDisk, f32),
 }
 
 impl<'s> PreparedLight<'s> {
@@ -100,6 +105,7 @@ impl<'s> PreparedLight<'s> {
             Source::Point(_) => (false, None),
             Source::Directional(light) => (light.is_wide(), None),
             Source::Area(light) => (true, light.hull()),
+            Source::Sun(..) => (true, None),
         };
         let samples = if is_extended { samples.max(1) } else { 1 };
         Self { samples, is_extended, surface, source }
@@ -111,7 +117,7 @@ impl<'s> PreparedLight<'s> {
     #[inline]
     pub(crate) fn hull(&self, p: Vec3, scene: Aabb) -> Option<Cow<'_, Hull>> {
         match &self.source {
-            Source::Point(_) => None,
+            Source::Point(_) | Source::Sun(..) => None,
             Source::Directional(light) => {
                 let hull = |bounds| Cow::Owned(Hull::of_box(bounds).endless());
                 light.bounds(p, scene).map(hull)
@@ -125,7 +131,7 @@ impl<'s> PreparedLight<'s> {
     fn flat_lamp(&self) -> Option<FlatLamp<'_>> {
         match &self.source {
             Source::Area(light) => light.flat_lamp(),
-            Source::Point(_) | Source::Directional(_) => None,
+            Source::Point(_) | Source::Directional(_) | Source::Sun(..) => None,
         }
     }
 
@@ -136,6 +142,11 @@ impl<'s> PreparedLight<'s> {
             Source::Point(light) => light.sample(p),
             Source::Directional(light) => Some(light.sample(u)),
             Source::Area(light) => light.sample(p, piece, u, time),
+            Source::Sun(disk, share) => {
+                let (to_light, radiance, pdf) = disk.sample(u);
+                let arriving = share / pdf * radiance;
+                Some(LightSample { to_light, arriving, pdf, target: Target::Sky })
+            }
         }
     }
 
@@ -145,6 +156,7 @@ impl<'s> PreparedLight<'s> {
             Source::Point(light) => vec![light.reach()],
             Source::Directional(light) => vec![light.reach()],
             Source::Area(light) => light.reaches(),
+            Source::Sun(disk, _) => vec![Reach::Far(disk.brightness())],
         }
     }
 }
@@ -196,10 +208,16 @@ impl<'s> LightTable<'s> {
         objects.for_each(|(i, object)| add((i, 0), AreaLight::of_object(&mut stock, object)));
         lamps.into_iter().for_each(|lamp| add(lamp.owner, AreaLight::of_part(&mut stock, lamp)));
         owners.shining.sort_unstable_by_key(|&(owner, _)| owner);
-        let is_sun =
-            |light: &PreparedLight<'_>| matches!(&light.source, Source::Directional(sun) if sun.is_wide());
+        let (sky, disk) = Sky::new(&scene.background, ambient, used);
+        // Whitted's lights say what a white surface shows of them.
+        let share = if used == Use::Recursion { FRAC_1_PI } else { 1.0 };
+        lights.extend(disk.map(|disk| PreparedLight::new(1, Source::Sun(disk, share))));
+        let is_sun = |light: &PreparedLight<'_>| match &light.source {
+            Source::Directional(sun) => sun.is_wide(),
+            Source::Sun(..) => true,
+            Source::Point(_) | Source::Area(_) => false,
+        };
         let suns = (0..lights.len()).filter(|&i| is_sun(&lights[i])).collect();
-        let sky = Sky::new(&scene.background, ambient, used);
         let sampler = whole::sampler(&lights, &sky, choice);
         Self { ambient, lights, sky, suns, owners, sampler }
     }
@@ -211,9 +229,7 @@ fn shining(scene: &Scene) -> usize {
         let emits = |id: &MaterialId| !scene.materials[id.index()].surface.emission().is_zero();
         matches!(object.geometry, Geometry::Mesh(_)) && object.materials.iter().any(emits)
     };
-    let is_area = |light: &&Light| {
-        matches!(&light.kind, LightKind::Area { geometry: Geometry::Mesh(_), .. })
-    };
+    let is_area = |light: &&Light| matches!(&light.kind, LightKind::Area { geometry: Geometry::Mesh(_), .. });
     scene.objects.iter().filter(shines).count() + scene.lights.iter().filter(is_area).count()
 }
 
@@ -234,6 +250,10 @@ fn prepare<'s>(stock: &mut Lamps<'s>, light: &'s Light) -> Option<PreparedLight<
         }
         LightKind::Directional { direction, angle } => {
             Source::Directional(DirectionalLight::new(light.intensity, *direction, *angle, used))
+        }
+        LightKind::Measured { position, axis, across, profile, falloff } => {
+            let point = PointLight::new(light.intensity, *position, *falloff);
+            Source::Point(point.into_measured(*axis, *across, Arc::clone(profile)))
         }
         LightKind::Area { .. } => Source::Area(AreaLight::of_light(stock, light)?),
     };

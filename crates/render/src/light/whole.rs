@@ -54,9 +54,7 @@ impl LightTable<'_> {
         };
         let mut sum = weight(density(self.lights.len(), self.sky.density(dir))) * self.sky.radiance(dir);
         for &sun in &self.suns {
-            if let Source::Directional(light) = &self.lights[sun].source
-                && let Some((radiance, pdf)) = light.seen(dir)
-            {
+            if let Some((radiance, pdf)) = self.lights[sun].seen_afar(dir) {
                 sum += weight(density(sun, pdf)) * radiance;
             }
         }
@@ -65,11 +63,29 @@ impl LightTable<'_> {
 
     /// What a mirror shows of infinitely far away.
     pub(crate) fn mirrored(&self, dir: Vec3) -> Rgb {
-        let sun = |&sun: &usize| match &self.lights[sun].source {
-            Source::Directional(light) => light.seen(dir).map_or(Rgb::ZERO, |(radiance, _)| radiance),
-            Source::Point(_) | Source::Area(_) => Rgb::ZERO,
-        };
+        let sun = |&sun: &usize| self.lights[sun].seen_afar(dir).map_or(Rgb::ZERO, |(radiance, _)| radiance);
         self.sky.seen(dir) + self.suns.iter().map(sun).sum::<Rgb>()
+    }
+
+    /// What the camera sees of infinitely far away: lights hide from it, the sun of the sky does not.
+    pub(crate) fn seen(&self, dir: Vec3) -> Rgb {
+        let disk = |&sun: &usize| match &self.lights[sun].source {
+            Source::Sun(disk, _) => disk.seen(dir).map_or(Rgb::ZERO, |(radiance, _)| radiance),
+            Source::Point(_) | Source::Area(_) | Source::Directional(_) => Rgb::ZERO,
+        };
+        self.sky.seen(dir) + self.suns.iter().map(disk).sum::<Rgb>()
+    }
+}
+
+impl PreparedLight<'_> {
+    /// Radiance and density of what covers a part of the sky; `None` beside it.
+    #[inline]
+    fn seen_afar(&self, dir: Vec3) -> Option<(Rgb, f32)> {
+        match &self.source {
+            Source::Directional(light) => light.seen(dir),
+            Source::Sun(disk, _) => disk.seen(dir),
+            Source::Point(_) | Source::Area(_) => None,
+        }
     }
 }
 

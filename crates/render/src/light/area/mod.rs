@@ -155,13 +155,13 @@ impl<'s> AreaLight<'s> {
     /// An object with a material that shines, on both sides; `None` for all others.
     pub(super) fn of_object(stock: &mut Lamps<'s>, object: &'s Object) -> Option<Self> {
         let still = (!object.motion.is_moving()).then(|| Now::Still(object.motion.first()));
-        Self::shining(stock, object, Stand::Place(Place::of(&object.motion)), still)
+        Self::shining(stock, object, Stand::Place(Place::of(&object.motion)), still, object.casts_shadow)
     }
 
     /// A part of a group with a material that shines; `None` for all others.
     pub(super) fn of_part(stock: &mut Lamps<'s>, lamp: Lamp<'s>) -> Option<Self> {
         let still = lamp.chain.still().map(|still| Now::Moving(*still));
-        Self::shining(stock, lamp.object, Stand::Chain(Box::new(lamp.chain)), still)
+        Self::shining(stock, lamp.object, Stand::Chain(Box::new(lamp.chain)), still, lamp.is_met)
     }
 
     /// An object that stands there, and if it does not move, at the place `still`.
@@ -170,6 +170,7 @@ impl<'s> AreaLight<'s> {
         object: &'s Object,
         stand: Stand<'s>,
         still: Option<Now<'s>>,
+        is_met: bool,
     ) -> Option<Self> {
         let glow = Glow::of(stock.scene, object);
         let flat = match (&still, glow, stock.used) {
@@ -184,7 +185,7 @@ impl<'s> AreaLight<'s> {
             two_sided: true,
             shortcut: flat.or_else(|| still.and_then(|place| sphere_of(&object.geometry, place))),
             stops: true,
-            is_met: true,
+            is_met,
         })
     }
 

@@ -234,9 +234,10 @@ mod tests {
     #[test]
     fn triangles_are_picked_by_area_and_the_rest_is_uniform() {
         // Areas 1, 3 and 4, side by side.
-        let positions = [(2.0, 1.0, 0.0), (2.0, 3.0, 5.0), (4.0, 2.0, 10.0)].iter().flat_map(|&(x, y, at)| {
-            [Vec3::ZERO, x * Vec3::X, y * Vec3::Y].map(|p| p + Vec3::new(0.0, 0.0, at))
-        });
+        let positions =
+            [(2.0, 1.0, 0.0), (2.0, 3.0, 5.0), (4.0, 2.0, 10.0)].iter().flat_map(|&(x, y, at)| {
+                [Vec3::ZERO, x * Vec3::X, y * Vec3::Y].map(|p| p + Vec3::new(0.0, 0.0, at))
+            });
         let mesh = TriMesh {
             positions: positions.collect(),
             triangles: vec![[0, 1, 2], [3, 4, 5], [6, 7, 8]],

@@ -2,9 +2,9 @@
 
 use super::*;
 use crate::light::cluster::Cone;
+use crate::sampler::Sampler;
 use glam::Vec3;
 use heliostat_geometry::Aabb;
-use crate::sampler::Sampler;
 use std::f32::consts::{FRAC_PI_2, PI};
 
 /// Lamps in a cube of side 10, small and large, weak and strong, turned anyhow.
@@ -29,8 +29,7 @@ fn lights(count: u32) -> Vec<Cluster> {
 fn lights_are_picked_as_often_as_they_say() {
     let lights = lights(60);
     let tree = LightTree::new(&lights).unwrap();
-    for (p, n) in
-        [(Vec3::splat(5.0), Vec3::Y), (Vec3::new(-20.0, 3.0, 1.0), Vec3::X), (Vec3::ZERO, Vec3::Z)]
+    for (p, n) in [(Vec3::splat(5.0), Vec3::Y), (Vec3::new(-20.0, 3.0, 1.0), Vec3::X), (Vec3::ZERO, Vec3::Z)]
     {
         let from = Lookout { p, n, time: 0.0, is_open: true };
         let count = 1 << 16;
