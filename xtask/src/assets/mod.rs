@@ -4,6 +4,7 @@
 //! Small files go to `assets/` and are committed; large ones go to `assets/large/`, which is not.
 
 mod bird;
+mod lamps;
 mod noise;
 mod obj;
 mod partition;
@@ -39,7 +40,7 @@ pub(crate) fn check() -> Outcome {
 /// The bytes of all files that are committed.
 fn committed() -> Result<BTreeMap<PathBuf, Vec<u8>>, String> {
     let mut files = vec![root().join(partition::PICTURE)];
-    for folder in ["assets/meshes", "assets/textures"] {
+    for folder in ["assets/meshes", "assets/textures", "assets/lamps"] {
         let entries = std::fs::read_dir(root().join(folder)).map_err(|e| format!("{folder}: {e}"))?;
         files.extend(entries.filter_map(|entry| Some(entry.ok()?.path())));
     }
@@ -52,7 +53,7 @@ fn committed() -> Result<BTreeMap<PathBuf, Vec<u8>>, String> {
 
 fn from_formulas() -> Outcome {
     let folder = root().join("assets");
-    for name in ["meshes", "textures", "large"] {
+    for name in ["meshes", "textures", "lamps", "large"] {
         std::fs::create_dir_all(folder.join(name)).map_err(|e| format!("{}: {e}", folder.display()))?;
     }
     let meshes = [
@@ -71,6 +72,10 @@ fn from_formulas() -> Outcome {
         say(&format!("assets/textures/{name}: {} x {}", image.width(), image.height()));
         let path = folder.join("textures").join(name);
         image.save(&path).map_err(|e| format!("{}: {e}", path.display()))?;
+    }
+    for (name, text) in lamps::all() {
+        let path = folder.join("lamps").join(name);
+        std::fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))?;
     }
     Ok(())
 }

@@ -1,5 +1,10 @@
 //! `[[light]]`: what lights the scene.
 //!
+//! Light has radiometric units: W/sr, W/m² and W/(m² sr), the same in every channel for white. Photometric data keeps its
+//! numbers: a candela of a glTF light or an IES file counts as 1 W/sr, a lux as 1 W/m². The sky is in watts of white light, of
+//! which 1 W is 179 lm; beside lamps in candela and lux give it `intensity = 179`. `exposure` of `[output]`, and `--exposure`,
+//! brighten a PNG by stops: rooms in lux want about -7, daylight in watts -6, in lux -14.
+//!
 //! # Scene file
 //! ```toml
 //! [[light]]

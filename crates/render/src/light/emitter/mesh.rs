@@ -57,6 +57,9 @@ impl<'s> MeshLamp<'s> {
     pub(in super::super) fn new(mesh: &'s TriMesh, glow: &Glow<'_>, most_pieces: usize) -> Option<Self> {
         let shines = |i: &u32| glow.factor(mesh.slot(*i)) > 0.0 && mesh.area(*i) > 0.0;
         let mut order: Vec<u32> = (0..mesh.triangles.len() as u32).filter(shines).collect();
+        if order.is_empty() {
+            return None;
+        }
         let bounds = mesh.bounds();
         order.par_sort_by_cached_key(|&i| morton(bounds, mesh.corners(i)));
         let levels = levels(mesh, glow, &order);
