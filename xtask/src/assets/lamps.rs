@@ -16,9 +16,9 @@ pub(super) fn all() -> [(&'static str, String); 3] {
         ("batwing.ies", text("batwing", &[0], |v, _| 60.0 + 260.0 * wave(v - 42.0, 16.0))),
         (
             "oval.ies",
-            text("oval beam", &[0, 30, 60, 90], |v, h| {
+            text("oval beam", &[0, 15, 30, 45, 60, 75, 90], |v, h| {
                 let across = h.to_radians().sin();
-                420.0 * wave(v, 48.0 - 34.0 * across * across)
+                420.0 * wave(v, 46.0 - 16.0 * across * across)
             }),
         ),
     ]

@@ -16,7 +16,7 @@
 //! ambient = {}                                                   # the same from everywhere, without shadow
 //! point = { position = [0, 4, 0], falloff = "inverse_square" }   # W/sr; falloff "none": the same at any distance
 //! # as a lamp was measured, in IES LM-63: candela count as W/sr, times the intensity
-//! point = { position = [0, 3, 0], ies = "wall.ies", direction = [0, -1, 0], turn = 90 }
+//! # point = { position = [0, 3, 0], ies = "wall.ies", direction = [0, -1, 0], turn = 90 }
 //! directional = { direction = [0, -1, 0], angle = 0.53 }         # W/m²; degrees across the source, 0 if left out
 //! # half angles in degrees; direction = [0, -1, 0] can take the place of look_at
 //! spot = { position = [0, 4, 0], look_at = "ball", inner = 24, outer = 30, falloff = "inverse_square" }
