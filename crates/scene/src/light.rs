@@ -18,10 +18,6 @@ pub enum Falloff {
 }
 
 /// The closed list of light sources.
-#[expect(
-    clippy::large_enum_variant,
-    reason = "a scene has few lights, and a box would be in the way of matching"
-)]
 #[derive(Clone, Debug, PartialEq)]
 pub enum LightKind {
     /// Ia: the same from everywhere, without shadow. Paths take it for the irradiance that an unseen sky, the same from

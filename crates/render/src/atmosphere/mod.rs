@@ -158,7 +158,7 @@ impl SunDisk {
         let belt = self.belts[i].lerp(self.belts[i + 1], place - i as f32);
         // The mean of the power over the disc is 1.
         let cos = (1.0 - x2).max(0.0).sqrt();
-        belt * 0.5 * (RIM + 2.0) * Rgb::splat(cos).powf_each(RIM)
+        belt * 0.5 * (RIM + 2.0) * powers(cos, RIM)
     }
 
     /// A direction, uniform over the disc, with its radiance and density.
@@ -180,15 +180,9 @@ impl SunDisk {
     }
 }
 
-/// Channel by channel.
-trait PowerOfEach {
-    fn powf_each(self, exponents: Rgb) -> Rgb;
-}
-
-impl PowerOfEach for Rgb {
-    fn powf_each(self, e: Rgb) -> Rgb {
-        Rgb::new(self.x.powf(e.x), self.y.powf(e.y), self.z.powf(e.z))
-    }
+/// A number to three powers.
+fn powers(base: f32, exponents: Rgb) -> Rgb {
+    exponents.map(|exponent| base.powf(exponent))
 }
 
 /// The height of a row: dense at the horizon.
