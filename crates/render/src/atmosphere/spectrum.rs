@@ -24,15 +24,16 @@ pub(super) const SUN: Spectrum = [
     1.79814, 1.7249, 1.66424, 1.563115, 1.53376, 1.4611, 1.388965, 1.328085, 1.270305,
 ];
 
-/// Absorption by one molecule of ozone, in units of 1e-25 m².
+/// Absorption by one molecule of ozone, in 10^-25 m².
 const OZONE: Spectrum = [
     0.006991, 0.004727, 0.02145, 0.069855, 0.1949, 0.42965, 0.8384, 1.541, 2.447, 3.2955, 4.469, 4.5495,
     4.662, 3.4775, 2.45, 1.6625, 1.07565, 0.701, 0.46275, 0.37325,
 ];
-/// Molecules of ozone per m³ where it is densest: 300 Dobson units in a layer as thick as one of 15 km.
-const OZONE_DENSITY: f64 = 300.0 * 2.687e20 / 15_000.0;
+/// Molecules of ozone where it is densest, in 10^25 per m³: 300 Dobson units of 2.687 10^20 per m², in a layer as thick as one
+/// of 15 km.
+const OZONE_DENSITY: f64 = 300.0 * 2.687 / 100_000.0 / 15_000.0;
 /// Scattering by air at sea level per metre, at a wavelength of 1 µm.
-const RAYLEIGH: f64 = 1.24062e-6;
+const RAYLEIGH: f64 = 1.24062 / 1_000_000.0;
 /// The exponent of Ångström's law.
 const ANGSTROM: f64 = 1.3;
 /// Watts to lumens of the definition of the lumen, and of what is called white light: the scale that makes a white of 1 W
@@ -51,18 +52,18 @@ fn by_wavelength(value: impl Fn(f64) -> f64) -> Spectrum {
 
 /// Scattering by air at sea level, per metre.
 pub(super) fn rayleigh() -> Spectrum {
-    by_wavelength(|nm| RAYLEIGH * (1e-3 * nm).powi(-4))
+    by_wavelength(|nm| RAYLEIGH * (nm / 1000.0).powi(-4))
 }
 
 /// Optical thickness of the haze above sea level, straight up.
 pub(super) fn haze(turbidity: f64) -> Spectrum {
     let beta = (0.04608 * turbidity - 0.04586).max(0.0);
-    by_wavelength(|nm| beta * (1e-3 * nm).powf(-ANGSTROM))
+    by_wavelength(|nm| beta * (nm / 1000.0).powf(-ANGSTROM))
 }
 
 /// Absorption by ozone where it is densest, per metre.
 pub(super) fn ozone() -> Spectrum {
-    OZONE.map(|cross_section| (1e-25 * f64::from(cross_section) * OZONE_DENSITY) as f32)
+    OZONE.map(|cross_section| (f64::from(cross_section) * OZONE_DENSITY) as f32)
 }
 
 /// From spectra per nm to linear Rec.709.
