@@ -62,6 +62,24 @@ enum Bench {
         #[arg(last = true)]
         flags: Vec<String>,
     },
+    /// Choosing among many lights by the tree, by power and evenly, on a generated scene.
+    Lights {
+        /// How many lights.
+        #[arg(long, default_value_t = 10_000)]
+        count: usize,
+        /// Rounds, in which all take turns.
+        #[arg(long, default_value_t = 3)]
+        rounds: usize,
+        /// Samples per pixel; the reference takes 16 times as many.
+        #[arg(long, default_value_t = 64)]
+        samples: u32,
+    },
+    /// Time per sample against 1 to 100,000 lights, and against 10,000 to 10 million triangles, generated.
+    Growth {
+        /// Rounds, in which all take turns.
+        #[arg(long, default_value_t = 3)]
+        rounds: usize,
+    },
     /// Against POV-Ray on the same scene, where povray is found.
     Peers {
         /// Rounds, in which both take turns.
@@ -78,6 +96,8 @@ fn main() -> ExitCode {
         Chore::Gallery { only, videos } => gallery::run(&only, videos),
         Chore::Bench(Bench::Scenes) => bench::scenes::run(),
         Chore::Bench(Bench::Index { flags }) => bench::index(&flags),
+        Chore::Bench(Bench::Lights { count, rounds, samples }) => bench::lights::run(count, rounds, samples),
+        Chore::Bench(Bench::Growth { rounds }) => bench::growth::run(rounds),
         Chore::Bench(Bench::Peers { rounds }) => bench::peers::run(rounds),
         Chore::Golden { names } => golden(&names),
     };

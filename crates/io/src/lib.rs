@@ -8,6 +8,7 @@ pub mod error;
 pub mod exr_file;
 pub mod file;
 pub mod gltf;
+mod ies;
 pub mod image_file;
 pub mod model;
 pub mod nearest;

@@ -16,6 +16,8 @@ pub(crate) fn radiance(background: &Background, dir: Vec3) -> Rgb {
         Background::Image { image, intensity, rotation } => {
             *intensity * bilinear(image, equirectangular(dir, *rotation))
         }
+        // Its table belongs to the lights: see `light::sky`.
+        Background::Daylight(_) => Rgb::ZERO,
     }
 }
 

@@ -62,6 +62,7 @@
 //! region or the whole picture. Random numbers are functions of seed, pixel, sample and branch; sums run
 //! in the order of samples.
 
+mod atmosphere;
 mod background;
 mod bits;
 mod bsdf;

@@ -221,7 +221,8 @@ impl<'a> PathPoint<'a> {
     /// From where lights are asked.
     #[inline]
     pub(crate) fn lookout(&self) -> Lookout {
-        Lookout { p: self.horizon.start.p, n: self.normals.ns, time: self.time }
+        let is_open = self.view.is_open();
+        Lookout { p: self.horizon.start.p, n: self.normals.ns, time: self.time, is_open }
     }
 
     /// What is sent to the viewer of light from the unit direction `to_light`, times the cosine there, and the density with

@@ -2,8 +2,10 @@
 
 use crate::color::Rgb;
 use crate::object::Geometry;
+use crate::profile::Profile;
 use glam::Vec3;
 use heliostat_geometry::Transform;
+use std::sync::Arc;
 
 /// How light weakens on its way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -16,10 +18,6 @@ pub enum Falloff {
 }
 
 /// The closed list of light sources.
-#[expect(
-    clippy::large_enum_variant,
-    reason = "a scene has few lights, and a box would be in the way of matching"
-)]
 #[derive(Clone, Debug, PartialEq)]
 pub enum LightKind {
     /// Ia: the same from everywhere, without shadow. Paths take it for the irradiance that an unseen sky, the same from
@@ -50,6 +48,19 @@ pub enum LightKind {
         inner: f32,
         /// Half angle in radians from which there is none.
         outer: f32,
+        /// Weakening.
+        falloff: Falloff,
+    },
+    /// From a point, as a lamp was measured. Intensity multiplies its candela, which count as W/sr.
+    Measured {
+        /// Position in world space.
+        position: Vec3,
+        /// Unit direction of the axis: where the vertical angle is 0.
+        axis: Vec3,
+        /// Unit direction across the axis, where the horizontal angle is 0.
+        across: Vec3,
+        /// How much goes where.
+        profile: Arc<Profile>,
         /// Weakening.
         falloff: Falloff,
     },

@@ -29,7 +29,8 @@ pub struct Object {
     pub motion: Motion<Transform>,
     /// Whether camera rays see it. What a group holds is seen where both it and the group are.
     pub visible: bool,
-    /// Whether it throws shadows; in a group, where the group does too.
+    /// Whether it throws shadows; in a group, where the group does too. What does not is not there for shadow rays, and for paths
+    /// neither for scattered ones: only the camera, mirrors and clear glass see it, and it takes no light from its surroundings.
     pub casts_shadow: bool,
 }
 

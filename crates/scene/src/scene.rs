@@ -9,6 +9,7 @@ use crate::medium::{Atmosphere, Medium};
 use crate::object::Object;
 use crate::settings::IntegratorKind;
 use crate::texture::Texture;
+use glam::Vec3;
 use heliostat_geometry::TriMesh;
 use std::collections::HashSet;
 use std::sync::Arc;
@@ -36,6 +37,23 @@ pub enum Background {
         /// Turn about y in radians, counter-clockwise seen from above.
         rotation: f32,
     },
+    /// The sky and the sun, as the air makes them.
+    Daylight(Daylight),
+}
+
+/// The moment of a clear day. Radiance is in W/(m² sr) of white light, of which 1 W are 179 lumens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Daylight {
+    /// Unit direction to the middle of the sun; below the horizon it is twilight, then night.
+    pub to_sun: Vec3,
+    /// How hazy the air is: 1 has no haze, 2 is very clear, 3 clear, 6 hazy, 10 thick haze.
+    pub turbidity: f32,
+    /// Share of the light that the ground sends back, in `[0, 1]`: it shows below the horizon and brightens the sky a little.
+    pub ground_albedo: Rgb,
+    /// Factor of all of it.
+    pub intensity: Rgb,
+    /// Factor of the disc of the sun alone; 0 leaves the sky.
+    pub sun: f32,
 }
 
 impl Default for Background {

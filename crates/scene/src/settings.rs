@@ -50,6 +50,18 @@ impl IntegratorKind {
     }
 }
 
+/// Which of many lights a point asks, where paths are traced. The picture is the same; the noise is not.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LightChoice {
+    /// By a tree over all lights that knows where they are and where they shine: as few lights as many.
+    #[default]
+    Tree,
+    /// By power alone, wherever the point is.
+    Power,
+    /// All alike.
+    Uniform,
+}
+
 /// How often light may be handed on before it reaches the camera, by what surfaces do to it. 0 leaves light that comes
 /// straight from a light to a surface. Every limit is a bias: light beyond it is missing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -172,6 +184,8 @@ pub struct RenderSettings {
     pub depth_limits: DepthLimits,
     /// The most that one sample of indirect light may add to a channel of a pixel, above 0: less noise, and less light.
     pub clamp_indirect: Option<f32>,
+    /// Which of many lights paths ask.
+    pub light_choice: LightChoice,
     /// Rays per point of the `ambient_occlusion` integrator.
     pub ao_samples: u32,
     /// Length of those rays in metres; infinite sees the whole scene.
@@ -204,6 +218,7 @@ impl Default for RenderSettings {
             transparent_shadows: false,
             depth_limits: DepthLimits::default(),
             clamp_indirect: None,
+            light_choice: LightChoice::Tree,
             ao_samples: 16,
             ao_distance: f32::INFINITY,
             mip_maps: true,

@@ -4,6 +4,7 @@
 //! Small files go to `assets/` and are committed; large ones go to `assets/large/`, which is not.
 
 mod bird;
+mod lamps;
 mod noise;
 mod obj;
 mod partition;
@@ -40,7 +41,7 @@ pub(crate) fn check() -> Outcome {
 /// The bytes of all files that are committed.
 fn committed() -> Result<BTreeMap<PathBuf, Vec<u8>>, String> {
     let mut files = vec![root().join(partition::PICTURE)];
-    for folder in ["assets/meshes", "assets/textures", "assets/volumes"] {
+    for folder in ["assets/meshes", "assets/textures", "assets/volumes", "assets/lamps"] {
         let entries = std::fs::read_dir(root().join(folder)).map_err(|e| format!("{folder}: {e}"))?;
         files.extend(entries.filter_map(|entry| Some(entry.ok()?.path())));
     }
@@ -53,7 +54,7 @@ fn committed() -> Result<BTreeMap<PathBuf, Vec<u8>>, String> {
 
 fn from_formulas() -> Outcome {
     let folder = root().join("assets");
-    for name in ["meshes", "textures", "volumes", "large"] {
+    for name in ["meshes", "textures", "volumes", "lamps", "large"] {
         std::fs::create_dir_all(folder.join(name)).map_err(|e| format!("{}: {e}", folder.display()))?;
     }
     let meshes = [
@@ -75,6 +76,10 @@ fn from_formulas() -> Outcome {
     }
     say("assets/volumes/smoke.vol");
     smoke::write(&folder.join("volumes/smoke.vol"))?;
+    for (name, text) in lamps::all() {
+        let path = folder.join("lamps").join(name);
+        std::fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))?;
+    }
     Ok(())
 }
 

@@ -1,5 +1,8 @@
 //! Measurements that anyone can repeat: on the release build, medians of interleaved rounds, as Markdown tables.
 
+mod generated;
+pub(crate) mod growth;
+pub(crate) mod lights;
 pub(crate) mod peers;
 pub(crate) mod scenes;
 

@@ -77,8 +77,12 @@ impl TriMesh {
 
     /// A point uniform by area on one triangle, from `u` in `[0, 1)^2`; pdf infinite when it has no area.
     pub fn sample_triangle(&self, triangle: u32, u: Vec2) -> AreaSample {
-        let hit = TriangleHit { t: 0.0, barycentric: square_to_triangle(u) };
-        let surface = self.surface(triangle, &hit);
+        self.sample_at(triangle, &TriangleHit { t: 0.0, barycentric: square_to_triangle(u) })
+    }
+
+    /// [`TriMesh::sample_triangle`] at a given point of the triangle.
+    pub fn sample_at(&self, triangle: u32, hit: &TriangleHit) -> AreaSample {
+        let surface = self.surface(triangle, hit);
         AreaSample {
             p: surface.p,
             p_err: surface.p_err,

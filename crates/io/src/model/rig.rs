@@ -74,7 +74,9 @@ pub(super) fn exposure_by_lights(lights: &[Light], bounds: Aabb) -> f32 {
     let at_centre = |light: &Light| {
         let strength = luminance(light.intensity);
         match light.kind {
-            LightKind::Point { position, .. } => strength / near(position).powi(2),
+            LightKind::Point { position, .. } | LightKind::Measured { position, .. } => {
+                strength / near(position).powi(2)
+            }
             LightKind::Spot { position, direction, outer, .. } => {
                 let is_lit = (centre - position).angle_between(direction) < outer + outer;
                 if is_lit { strength / near(position).powi(2) } else { 0.0 }

@@ -5,15 +5,17 @@ use super::texture::EncodingMode;
 use crate::document::{Fault, Placed};
 use crate::error::{LoadError, Warning, quote};
 use crate::gltf::GltfModel;
+use crate::file::read_file;
+use crate::ies;
 use crate::image_file::{Limits, read_image};
 use crate::nearest::nearest_name;
 use crate::obj::{ObjModel, ObjOptions, Split, load_obj};
 use crate::texture_cache::TextureCache;
 use crate::volume_file::{Volume, read_volume};
 use heliostat_geometry::{Aabb, TriMesh};
-use heliostat_scene::Image;
 use heliostat_scene::image::Encoding;
 use heliostat_scene::texture::Tile;
+use heliostat_scene::{Image, Profile};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::path::{Path, PathBuf};
@@ -66,6 +68,7 @@ pub(crate) struct Assets {
     /// Images as their files say, as sRGB, and as plain numbers.
     images: [TextureCache; 3],
     volumes: HashMap<PathBuf, Arc<Volume>>,
+    profiles: HashMap<PathBuf, Arc<Profile>>,
 }
 
 impl Assets {
@@ -82,6 +85,7 @@ impl Assets {
             folder: folder.to_owned(),
             models: HashMap::new(),
             gltf: HashMap::new(),
+            profiles: HashMap::new(),
             images: [encoded(None), encoded(Some(Encoding::Srgb)), encoded(Some(Encoding::Linear))],
             volumes: HashMap::new(),
         }
@@ -136,6 +140,25 @@ impl Assets {
                 Ok(Arc::clone(entry.insert(Arc::new(volume))))
             }
         }
+    }
+
+    /// The profile of a lamp.
+    ///
+    /// # Errors
+    /// At the name, when the file cannot be read or makes no sense.
+    pub(crate) fn profile(&mut self, file: &Placed<String>) -> Result<Arc<Profile>, Fault> {
+        let path = self.folder.join(file.as_str());
+        if let Some(known) = self.profiles.get(&path) {
+            return Ok(Arc::clone(known));
+        }
+        let bytes = read_file(&path, ies::MOST_BYTES).map_err(|error| fault_at(file, &path, &error, None))?;
+        let profile = ies::parse(&String::from_utf8_lossy(&bytes)).map_err(|error| {
+            let message = format!("{}: line {}: {}", quote(file), error.line, error.message);
+            Fault::new(message).with_help(error.help).or_at(file.span())
+        })?;
+        let profile = Arc::new(profile);
+        self.profiles.insert(path, Arc::clone(&profile));
+        Ok(profile)
     }
 
     /// All of an OBJ file as one mesh, and what its reader warns of.

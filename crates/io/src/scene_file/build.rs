@@ -260,13 +260,19 @@ impl Builder<'_> {
 
     fn lights(&mut self, targets: &Targets<'_>) -> Result<(), Fault> {
         for (i, table) in self.file.light.iter().enumerate() {
-            let kind = match table.simple_kind(targets)? {
-                Some(kind) => kind,
-                None => self.area_light(table, targets)?,
+            let mut intensity = table.radiance();
+            let kind = match (table.ies(), table.simple_kind(targets)?) {
+                (Some((point, file)), _) => {
+                    let profile = self.assets.profile(file)?;
+                    intensity *= point.scale(&profile);
+                    point.measured(profile)?
+                }
+                (None, Some(kind)) => kind,
+                (None, None) => self.area_light(table, targets)?,
             };
             self.scene.lights.push(Light {
                 name: self.directory.lights.name(i).to_owned(),
-                intensity: table.radiance(),
+                intensity,
                 samples: table.samples.map_or(1, super::number::Count::u32),
                 kind,
             });
@@ -293,7 +299,7 @@ impl Builder<'_> {
     fn background(&mut self) -> Result<(), Fault> {
         let table: &EnvironmentTable = &self.file.environment;
         let Some(file) = &table.image else {
-            self.scene.background = table.simple_background();
+            self.scene.background = table.simple_background()?;
             return Ok(());
         };
         let made_by = table.made_by.as_ref().map(|command| command.as_str());

@@ -7,6 +7,7 @@
 //! color = [0.2, 0.3, 0.5]        # black if left out
 //! gradient = { top = [0.2, 0.4, 0.8], horizon = 0.9, bottom = 0.3 }
 //! image = "sky.hdr"              # equirectangular, its middle towards -z
+//! sky = { elevation = 20 }       # sky and sun of a clear day; see the module `sky`
 //! intensity = 1                  # multiplies any of them
 //! rotation = 0                   # of the image, degrees about y, counter-clockwise seen from above
 //! # medium = "fog"               # what fills the space around everything: a ball around all finite things, lamps and cameras,
@@ -16,6 +17,7 @@
 use super::choice::{at_most_one, choice, without_effect};
 use super::names::Names;
 use super::number::{Number, Positive};
+use super::sky::SkyTable;
 use super::value::Color;
 use crate::document::{Fault, Placed};
 use heliostat_scene::MediumId;
@@ -34,6 +36,8 @@ pub struct EnvironmentTable {
     pub gradient: Option<Placed<GradientTable>>,
     /// Path of an equirectangular image, relative to the scene file.
     pub image: Option<Placed<String>>,
+    /// The sky and the sun of a clear day.
+    pub sky: Option<Placed<SkyTable>>,
     /// Multiplies any of them; 1 if left out.
     pub intensity: Option<Placed<Color>>,
     /// Turn of the image in degrees about y; 0 if left out.
@@ -65,6 +69,7 @@ impl EnvironmentTable {
             choice("color", self.color.as_ref()),
             choice("gradient", self.gradient.as_ref()),
             choice("image", self.image.as_ref()),
+            choice("sky", self.sky.as_ref()),
         ];
         at_most_one(&kinds)?;
         if self.medium.is_none() {
@@ -78,15 +83,21 @@ impl EnvironmentTable {
         }
         if kinds.iter().all(|(_, span)| span.is_none()) {
             let intensity = choice("intensity", self.intensity.as_ref());
-            without_effect("without `color`, `gradient` or `image`", &[intensity])?;
+            without_effect("without `color`, `gradient`, `image` or `sky`", &[intensity])?;
         }
         Ok(())
     }
 
     /// The background, unless it is an image.
-    pub(super) fn simple_background(&self) -> Background {
+    ///
+    /// # Errors
+    /// Those of the sky.
+    pub(super) fn simple_background(&self) -> Result<Background, Fault> {
         let intensity = self.intensity();
-        match (&self.color, &self.gradient) {
+        if let Some(sky) = &self.sky {
+            return Ok(Background::Daylight(sky.daylight(intensity)?));
+        }
+        Ok(match (&self.color, &self.gradient) {
             (Some(color), _) => Background::Constant(color.rgb() * intensity),
             (None, Some(gradient)) => Background::Gradient {
                 top: gradient.top.rgb() * intensity,
@@ -94,7 +105,7 @@ impl EnvironmentTable {
                 bottom: gradient.bottom.rgb() * intensity,
             },
             (None, None) => Background::default(),
-        }
+        })
     }
 
     /// What fills the space around everything.

@@ -1,5 +1,10 @@
 //! `[[light]]`: what lights the scene.
 //!
+//! Light has radiometric units: W/sr, W/m² and W/(m² sr), the same in every channel for white. Photometric data keeps its
+//! numbers: a candela of a glTF light or an IES file counts as 1 W/sr, a lux as 1 W/m². The sky is in watts of white light, of
+//! which 1 W is 179 lm; beside lamps in candela and lux give it `intensity = 179`. `exposure` of `[output]`, and `--exposure`,
+//! brighten a PNG by stops: rooms in lux want about -7, daylight in watts -6, in lux -14.
+//!
 //! # Scene file
 //! ```toml
 //! [[light]]
@@ -10,6 +15,8 @@
 //! # exactly one of:
 //! ambient = {}                                                   # the same from everywhere, without shadow
 //! point = { position = [0, 4, 0], falloff = "inverse_square" }   # W/sr; falloff "none": the same at any distance
+//! # as a lamp was measured, in IES LM-63: candela count as W/sr, times the intensity
+//! # point = { position = [0, 3, 0], ies = "wall.ies", direction = [0, -1, 0], turn = 90 }
 //! directional = { direction = [0, -1, 0], angle = 0.53 }         # W/m²; degrees across the source, 0 if left out
 //! # half angles in degrees; direction = [0, -1, 0] can take the place of look_at
 //! spot = { position = [0, 4, 0], look_at = "ball", inner = 24, outer = 30, falloff = "inverse_square" }
@@ -18,16 +25,18 @@
 //! ```
 
 use super::area::AreaTable;
-use super::choice::{choice, exactly_one};
-use super::number::{Count, HalfTurn};
+use super::choice::{choice, exactly_one, without_effect};
+use super::number::{Count, HalfTurn, Number};
 use super::targets::{Targets, unit};
 use super::value::{Color, Point, Target, vector};
 use crate::document::{Fault, Placed, Span};
 use crate::error::quote;
-use glam::DVec3;
+use glam::{DQuat, DVec3};
+use heliostat_scene::Profile;
 use heliostat_scene::light::{Falloff, LightKind};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// Half angle of a spot in degrees.
 const OUTER: f64 = 30.0;
@@ -71,6 +80,16 @@ pub struct PointTable {
     pub position: Point,
     /// How the light weakens on its way; `inverse_square` if left out.
     pub falloff: Option<FalloffName>,
+    /// Path of a photometric file of IES LM-63, relative to the scene file: how much light goes where. Its candela count as W/sr
+    /// and are multiplied by the intensity.
+    pub ies: Option<Placed<String>>,
+    /// Where the lamp of the file points, its vertical angle 0; down if left out.
+    pub direction: Option<Placed<Point>>,
+    /// Turn of that lamp about its direction in degrees, clockwise as it looks; 0, its horizontal angle 0 towards +x, if left
+    /// out.
+    pub turn: Option<Placed<Number>>,
+    /// Whether its brightest direction counts as 1, so that the intensity is in W/sr there; `false` if left out.
+    pub normalize: Option<Placed<bool>>,
 }
 
 /// From infinitely far.
@@ -137,12 +156,24 @@ impl LightTable {
         self.intensity.unwrap_or(Color::ONE).rgb() * self.color.unwrap_or(Color::ONE).rgb()
     }
 
-    /// The kind of every light but an area light.
+    /// The file that says how much goes where.
+    pub(super) fn ies(&self) -> Option<(&PointTable, &Placed<String>)> {
+        let point: &PointTable = self.point.as_ref()?;
+        Some((point, point.ies.as_ref()?))
+    }
+
+    /// The kind of every light but an area light and a measured one.
     pub(super) fn simple_kind(&self, targets: &Targets<'_>) -> Result<Option<LightKind>, Fault> {
         if self.ambient.is_some() {
             return Ok(Some(LightKind::Ambient));
         }
-        if let Some(point) = &self.point {
+        if let Some(point) = self.point.as_ref().filter(|point| point.ies.is_none()) {
+            let measured = [
+                choice("direction", point.direction.as_ref()),
+                choice("turn", point.turn.as_ref()),
+                choice("normalize", point.normalize.as_ref()),
+            ];
+            without_effect("without `ies`", &measured)?;
             let position = vector(&point.position).as_vec3();
             return Ok(Some(LightKind::Point { position, falloff: falloff(point.falloff) }));
         }
@@ -151,6 +182,30 @@ impl LightTable {
             return Ok(Some(LightKind::Directional { direction: unit(&sun.direction)?.as_vec3(), angle }));
         }
         self.spot.as_ref().map(|spot| spot.build(targets)).transpose()
+    }
+}
+
+impl PointTable {
+    /// The lamp of a profile.
+    pub(super) fn measured(&self, profile: Arc<Profile>) -> Result<LightKind, Fault> {
+        let axis = self.direction.as_ref().map_or(Ok(DVec3::NEG_Y), unit)?;
+        // The zero of the horizontal angle is as near to +x as it can be; for a lamp that looks along x, to +y.
+        let level = if axis.cross(DVec3::X).length() > 0.5 { DVec3::X } else { DVec3::Y };
+        let zero = (level - level.dot(axis) * axis).normalize();
+        let turn = self.turn.as_ref().map_or(0.0, |turn| turn.get().to_radians());
+        Ok(LightKind::Measured {
+            position: vector(&self.position).as_vec3(),
+            axis: axis.as_vec3(),
+            across: (DQuat::from_axis_angle(axis, turn) * zero).as_vec3(),
+            profile,
+            falloff: falloff(self.falloff),
+        })
+    }
+
+    /// The factor by which the intensity is multiplied.
+    pub(super) fn scale(&self, profile: &Profile) -> f32 {
+        let is_relative = self.normalize.as_ref().is_some_and(|normalize| **normalize);
+        if is_relative && profile.peak() > 0.0 { 1.0 / profile.peak() } else { 1.0 }
     }
 }
 

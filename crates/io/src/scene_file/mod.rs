@@ -30,7 +30,7 @@
 //! | `[output]` | [`output`] | view transform, bits |
 //! | `[time]` | [`time`] | frames, shutter |
 //! | `[camera]`, `[[camera]]` | [`camera`], [`focus`] | where from |
-//! | `[environment]` | [`environment`] | what is behind everything |
+//! | `[environment]` | [`environment`], [`sky`] | what is behind everything |
 //! | `[[texture]]` | [`texture`] | images and patterns |
 //! | `[[medium]]` | [`medium`] | what light flies through |
 //! | `[[material]]` | [`material`], [`standard`] | how surfaces answer light |
@@ -67,6 +67,7 @@ pub mod output;
 pub mod placement;
 pub mod render;
 pub mod shape;
+pub mod sky;
 mod stage;
 pub mod standard;
 mod targets;

@@ -74,7 +74,8 @@ pub struct ObjectTable {
     pub matrix: Option<Placed<Matrix>>,
     /// Whether camera rays see it; `true` if left out.
     pub visible: Option<bool>,
-    /// Whether it throws shadows; `true` if left out.
+    /// Whether it throws shadows; `true` if left out. What throws none is seen by the camera, by mirrors and through glass alone,
+    /// and takes no light from its surroundings.
     pub casts_shadow: Option<bool>,
 }
 

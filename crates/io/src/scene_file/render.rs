@@ -17,6 +17,7 @@
 //! transparent_shadows = false    # whether light passes, coloured and straight, through transparent things
 //! # depth_limits = { total = 12 } # of the integrator "path"; see the module `depth_limits`
 //! # clamp_indirect = 10          # the most that a sample of its indirect light adds; all of it if left out
+//! light_choice = "tree"          # which of many lights paths ask; "power", "uniform"
 //! ao_samples = 16                # rays per point of the integrator "ambient_occlusion"
 //! # ao_distance = 1              # their length in metres; without end if left out
 //! mip_maps = true                # whether textures are averaged over what a ray stands for
@@ -29,7 +30,7 @@ use super::depth_limits::DepthLimitsTable;
 use super::number::{Count, NonNegative, Positive, Whole};
 use crate::document::{Fault, Placed};
 use heliostat_scene::RenderSettings;
-use heliostat_scene::settings::{Filter, IntegratorKind, Layers, PixelRect};
+use heliostat_scene::settings::{Filter, IntegratorKind, Layers, LightChoice, PixelRect};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -72,6 +73,8 @@ pub struct RenderTable {
     /// The most that one sample of indirect light adds to a channel under `path`: less noise, and less light. All of it if left
     /// out.
     pub clamp_indirect: Option<Positive>,
+    /// Which of many lights the integrators of paths ask: the noise is another, the picture the same. `tree` if left out.
+    pub light_choice: Option<LightChoiceName>,
     /// Rays per point of the integrator `ambient_occlusion`; 16 if left out.
     pub ao_samples: Option<Count>,
     /// Length of those rays in metres; without end if left out.
@@ -150,6 +153,25 @@ pub enum LayerName {
     MaterialId,
 }
 
+/// Which of many lights a point asks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum LightChoiceName {
+    /// By what each may throw there, through a tree.
+    Tree,
+    /// By power.
+    Power,
+    /// All alike.
+    Uniform,
+}
+
+/// The names of the choices among lights and their counterparts in the scene.
+const LIGHT_CHOICES: [(LightChoiceName, LightChoice); 3] = [
+    (LightChoiceName::Tree, LightChoice::Tree),
+    (LightChoiceName::Power, LightChoice::Power),
+    (LightChoiceName::Uniform, LightChoice::Uniform),
+];
+
 /// The names of the filters and their counterparts in the scene.
 const FILTERS: [(FilterName, Filter); 6] = [
     (FilterName::Box, Filter::Box),
@@ -215,6 +237,10 @@ impl RenderTable {
             transparent_shadows: self.transparent_shadows.unwrap_or(normal.transparent_shadows),
             depth_limits: self.depth_limits.as_ref().map_or(normal.depth_limits, DepthLimitsTable::limits),
             clamp_indirect: self.clamp_indirect.map(Positive::f32),
+            light_choice: self
+                .light_choice
+                .and_then(|name| counterpart(&LIGHT_CHOICES, name))
+                .unwrap_or(normal.light_choice),
             ao_samples: self.ao_samples.map_or(normal.ao_samples, Count::u32),
             ao_distance: self.ao_distance.map_or(normal.ao_distance, Positive::f32),
             mip_maps: self.mip_maps.unwrap_or(normal.mip_maps),
@@ -270,6 +296,7 @@ impl RenderTable {
             transparent_shadows: Some(settings.transparent_shadows),
             depth_limits: Some(DepthLimitsTable::of(&settings.depth_limits)),
             clamp_indirect: settings.clamp_indirect.and_then(|most| Positive::new(most.into())),
+            light_choice: counterpart_of(&LIGHT_CHOICES, settings.light_choice),
             ao_samples: Whole::new(settings.ao_samples.into()),
             ao_distance: Positive::new(settings.ao_distance.into()),
             mip_maps: Some(settings.mip_maps),

@@ -25,7 +25,7 @@ fn unknown_keys_are_marked_and_a_near_one_is_offered() {
     refused(
         &with_camera("[[light]]\npoint = { position = [0, 0, 0], «zzz» = 1 }\n"),
         "unknown key `zzz`",
-        "known: `position`, `falloff`",
+        "known: `position`, `falloff`, `ies`, `direction`, `turn`, `normalize`",
     );
     refused(
         &with_camera("[[material]]\nname = \"a\"\nphong.diffuse = { texture = \"t\", «faktor» = 1 }\n"),
@@ -387,7 +387,7 @@ fn keys_that_would_do_nothing_are_refused() {
     );
     refused(
         &with_camera("[environment]\nintensity = «3»\n"),
-        "`intensity` has no effect without `color`, `gradient` or `image`",
+        "`intensity` has no effect without `color`, `gradient`, `image` or `sky`",
         "remove `intensity`",
     );
     refused(

@@ -45,6 +45,7 @@ fn template(table: &str) -> &'static str {
         "FocusTable" => "object = [{ sphere = { radius = 2 }, translate = [0, 0, -9] }]\n[camera.focus]\n@",
         "DepthLimitsTable" => "camera = {}\n[render.depth_limits]\n@",
         "EnvironmentTable" => "camera = {}\nmedium = [{ name = 'fog', scattering = 1 }]\n[environment]\n@",
+        "SkyTable" => "camera = {}\n[environment.sky]\n@",
         "GradientTable" => "camera = {}\n[environment.gradient]\n@",
         "TextureTable" => "camera = {}\n[[texture]]\n@",
         "CheckerTable" => "camera = {}\n[[texture]]\nname = 't'\n[texture.checker]\n@",
@@ -105,6 +106,7 @@ fn outcome(text: &str) -> String {
     for (name, value) in [("a.vol", 1.0), ("b.vol", 2.0)] {
         folder.write(name, volume(value));
     }
+    folder.write("a.ies", "TILT=NONE\n1 1 1 2 2 1 1 0 0 0 1 1 1\n0 90\n0 90\n9 4 6 2\n");
     for (name, value) in [("a.png", 50_u8), ("b.png", 200)] {
         let path = folder.write(name, "");
         image::RgbImage::from_pixel(2, 1, image::Rgb([value; 3])).save(&path).unwrap();

@@ -8,7 +8,7 @@ use heliostat_io::scene_file::SceneFile;
 use heliostat_io::scene_file::render::RenderTable;
 use heliostat_scene::camera::Projection;
 use heliostat_scene::light::LightKind;
-use heliostat_scene::settings::{DepthLimits, Filter, IntegratorKind, Layers, PixelRect};
+use heliostat_scene::settings::{DepthLimits, Filter, IntegratorKind, Layers, LightChoice, PixelRect};
 use heliostat_scene::{RenderSettings, Scene};
 use std::collections::BTreeMap;
 
@@ -164,6 +164,7 @@ fn settings_survive_being_written_and_read() {
         depth_limits: DepthLimits { total: 9, diffuse: 0, glossy: 3, ..DepthLimits::default() },
         clamp_indirect: Some(7.5),
         mip_maps: false,
+        light_choice: LightChoice::Uniform,
         ao_samples: 5,
         ao_distance: 1.0e5,
         layers: Layers { uv: true, depth: true, ..Layers::default() },

@@ -156,6 +156,15 @@ impl View<'_> {
         }
     }
 
+    /// Whether light from behind the surface is scattered to the viewer, too.
+    #[inline]
+    pub(crate) fn is_open(&self) -> bool {
+        match self {
+            Self::Phong(..) => false,
+            Self::Standard(view) => view.is_open(),
+        }
+    }
+
     /// The value, and the density with which [`Self::sample`] draws `wi`; mirror and clear glass left out.
     #[inline]
     pub(crate) fn eval(&self, wi: Vec3) -> (Rgb, f32) {

@@ -2,7 +2,7 @@
 
 use super::{CameraRay, FirstHit, Sample};
 use crate::shading::ShadingPoint;
-use crate::world::{Owner, PassingRay, SurfaceHit, World};
+use crate::world::{Eye, Owner, PassingRay, SurfaceHit, World};
 use glam::Vec3;
 use heliostat_scene::Rgb;
 
@@ -32,7 +32,7 @@ pub(super) fn first_from(
 ) -> Option<(SurfaceHit, FirstHit)> {
     let dir = passing.ray.dir;
     loop {
-        let surface = world.seen(&passing, time, true)?;
+        let surface = world.seen(&passing, time, Eye::Camera)?;
         let (object, material) = match surface.owner {
             Owner::Object { index, material } => (index, material),
             Owner::Light(_) => return Some((surface, on_light(&surface, dir))),

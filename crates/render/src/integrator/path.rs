@@ -17,7 +17,7 @@ use crate::interiors::Interiors;
 use crate::light::{self, Lookout};
 use crate::path_point::{Covering, Onward, PathPoint};
 use crate::sampler::Sampler;
-use crate::world::{Owner, PassingRay, SurfaceHit, World};
+use crate::world::{Eye, Owner, PassingRay, SurfaceHit, World};
 use heliostat_scene::settings::DepthLimits;
 use heliostat_scene::{RenderSettings, Rgb};
 use std::ops::ControlFlow;
@@ -129,7 +129,7 @@ impl Path {
         counters: &mut RayCounters,
     ) -> ControlFlow<()> {
         // Find what the ray meets first.
-        let Some(surface) = &world.seen_inside(&way.passing, way.around.last(), time, way.from_camera) else {
+        let Some(surface) = &world.seen_inside(&way.passing, way.around.last(), time, way.eye()) else {
             self.leave(world, way, found);
             return ControlFlow::Break(());
         };
@@ -208,7 +208,7 @@ impl Path {
         let (lights, dir) = (world.light_table(), way.passing.ray.dir.normalize());
         let radiance = match &way.scattered {
             Some((from, pdf)) => lights.beyond(from, dir, |other| heuristic(*pdf, other)),
-            None if way.passed_only => lights.sky.seen(dir),
+            None if way.passed_only => lights.seen(dir),
             None => lights.mirrored(dir),
         };
         found.radiance += self.clamped(way.weight * radiance, way.depth.total.saturating_sub(1));
@@ -223,6 +223,15 @@ impl Path {
 }
 
 impl Way {
+    /// Who looks along it.
+    fn eye(&self) -> Eye {
+        match (self.from_camera, &self.scattered) {
+            (true, _) => Eye::Camera,
+            (false, Some(_)) => Eye::Scattered,
+            (false, None) => Eye::Any,
+        }
+    }
+
     /// Weakens it by the glass that it came through: the one that it is in, or one that it leaves and was not known to be
     /// in, because the camera stands in it, or one thing in another.
     fn absorb(&mut self, left: Option<Rgb>, surface: &SurfaceHit) {

@@ -21,7 +21,7 @@ use crate::interiors::Interiors;
 use crate::light::{self, Lookout};
 use crate::path_point::{Covering, PathPoint};
 use crate::sampler::Sampler;
-use crate::world::{Owner, PassingRay, SurfaceHit, World};
+use crate::world::{Eye, Owner, PassingRay, SurfaceHit, World};
 use heliostat_scene::{RenderSettings, Rgb};
 
 /// From so many scatterings on paths end by chance.
@@ -98,7 +98,7 @@ impl Walk<'_, '_> {
     /// The radiance that a leg sees.
     fn radiance(&mut self, mut leg: Leg) -> Rgb {
         let world = self.world;
-        let Some(surface) = &world.seen_inside(&leg.passing, leg.around.last(), self.time, leg.from_camera)
+        let Some(surface) = &world.seen_inside(&leg.passing, leg.around.last(), self.time, leg.eye())
         else {
             return self.beyond(&leg);
         };
@@ -177,7 +177,7 @@ impl Walk<'_, '_> {
         let (lights, dir) = (self.world.light_table(), leg.passing.ray.dir.normalize());
         match &leg.asked {
             Some(from) => lights.beyond(from, dir, |_| 1.0),
-            None if leg.passed_only => lights.sky.seen(dir),
+            None if leg.passed_only => lights.seen(dir),
             None => lights.mirrored(dir),
         }
     }
@@ -189,6 +189,15 @@ impl Leg {
     fn left(&self, left: Option<Rgb>, surface: &SurfaceHit) -> Rgb {
         let absorption = self.around.ruling().map(|inside| inside.absorption).or(left);
         left_of(absorption.unwrap_or(Rgb::ZERO), surface.hit.t * self.passing.ray.dir.length())
+    }
+
+    /// Who looks along it.
+    fn eye(&self) -> Eye {
+        match (self.from_camera, &self.asked) {
+            (true, _) => Eye::Camera,
+            (false, Some(_)) => Eye::Scattered,
+            (false, None) => Eye::Any,
+        }
     }
 
     /// Whether the light of that surface was asked for where the ray comes from.

@@ -11,12 +11,11 @@
 use super::first::on_light;
 use super::next_event::left_of;
 use super::{CameraRay, FirstHit, Integrator, Sample};
-use crate::background;
 use crate::counters::RayCounters;
 use crate::light::{self, direct};
 use crate::sampler::Sampler;
 use crate::shading::ShadingPoint;
-use crate::world::{Inside, Owner, PassingRay, SurfaceHit, World};
+use crate::world::{Eye, Inside, Owner, PassingRay, SurfaceHit, World};
 use heliostat_scene::{RenderSettings, Rgb};
 
 /// Streams of random numbers of the branches.
@@ -108,7 +107,8 @@ impl Whitted {
         counters: &mut RayCounters,
     ) {
         // Find what the ray meets first, and colour what comes through glass.
-        let seen = world.seen_inside(&branch.passing, branch.inside.as_ref(), time, branch.from_camera);
+        let eye = if branch.from_camera { Eye::Camera } else { Eye::Any };
+        let seen = world.seen_inside(&branch.passing, branch.inside.as_ref(), time, eye);
         let Some(surface) = &seen else {
             self.leave(world, branch, found);
             return;
@@ -215,7 +215,7 @@ impl Whitted {
             found.through += branch.weight.element_sum() / 3.0;
         } else {
             let dir = branch.passing.ray.dir.normalize();
-            found.radiance += branch.weight * background::radiance(&world.scene().background, dir);
+            found.radiance += branch.weight * world.light_table().seen(dir);
         }
     }
 }

@@ -1,9 +1,12 @@
 //! Which of many lights a point asks.
 
+use super::Lookout;
 use super::cluster::Cluster;
 use super::sums;
 use super::tree::LightTree;
-use glam::Vec3;
+use heliostat_geometry::Aabb;
+use heliostat_scene::settings::LightChoice;
+use std::f32::consts::PI;
 
 /// Share of the choices between near and far lights, and among the far ones, that are made without regard to what arrives: no
 /// light is forgotten because it was thought weak.
@@ -18,17 +21,25 @@ pub(super) enum Reach {
     Far(f32),
 }
 
+/// A piece of a light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Piece {
+    pub(super) light: usize,
+    /// Among those of the light.
+    pub(super) piece: usize,
+}
+
 /// All lights: a tree of the near ones beside the list of the far ones.
 #[derive(Debug)]
 pub(crate) struct LightSampler {
     tree: Option<LightTree>,
-    /// Index of the light for each leaf of the tree, and for each of the far ones.
-    near: Vec<usize>,
-    far: Vec<usize>,
+    /// The piece for each leaf of the tree, and for each of the far ones.
+    near: Vec<Piece>,
+    far: Vec<Piece>,
     /// Running sums of the probabilities among the far ones, and about what they throw together.
     sums: Vec<f64>,
     far_irradiance: f32,
-    /// Place of each light in its list.
+    /// Place of the first piece of each light in its list; the others follow.
     places: Vec<Place>,
 }
 
@@ -39,20 +50,29 @@ enum Place {
 }
 
 impl LightSampler {
-    pub(super) fn new(lights: impl IntoIterator<Item = Reach>) -> Self {
+    /// A choice among lights by the pieces of each; all pieces of a light are near, or there is one.
+    pub(super) fn new(lights: &[Vec<Reach>], choice: LightChoice) -> Self {
+        let radius = extent(lights);
         let (mut clusters, mut irradiances) = (Vec::new(), Vec::new());
         let (mut near, mut far, mut places) = (Vec::new(), Vec::new(), Vec::new());
-        for (i, light) in lights.into_iter().enumerate() {
-            match light {
-                Reach::Near(cluster) => {
-                    places.push(Place::Near(near.len()));
-                    near.push(i);
-                    clusters.push(cluster);
-                }
-                Reach::Far(irradiance) => {
-                    places.push(Place::Far(far.len()));
-                    far.push(i);
-                    irradiances.push(irradiance);
+        for (light, pieces) in lights.iter().enumerate() {
+            let reach = |reach: &Reach| match choice {
+                LightChoice::Tree => *reach,
+                LightChoice::Power => Reach::Far(reach.power(radius)),
+                LightChoice::Uniform => Reach::Far(1.0),
+            };
+            let is_near = matches!(pieces.first().map(reach), Some(Reach::Near(_)));
+            places.push(if is_near { Place::Near(near.len()) } else { Place::Far(far.len()) });
+            for (piece, reach) in pieces.iter().map(reach).enumerate() {
+                match reach {
+                    Reach::Near(cluster) => {
+                        near.push(Piece { light, piece });
+                        clusters.push(cluster);
+                    }
+                    Reach::Far(irradiance) => {
+                        far.push(Piece { light, piece });
+                        irradiances.push(irradiance);
+                    }
                 }
             }
         }
@@ -66,12 +86,12 @@ impl LightSampler {
         Self { tree: LightTree::new(&clusters), near, far, sums, far_irradiance, places }
     }
 
-    /// A light for the point `p` of a surface with normal `n`, and its probability; `None` where none is worth asking.
+    /// A light for a point, and its probability; `None` where none is worth asking.
     #[inline]
-    pub(super) fn pick(&self, p: Vec3, n: Vec3, u: f32) -> Option<(usize, f32)> {
-        let (tree, share) = self.near_share(p, n);
+    pub(super) fn pick(&self, from: &Lookout, u: f32) -> Option<(Piece, f32)> {
+        let (tree, share) = self.near_share(from);
         if let Some(tree) = tree.filter(|_| u < share) {
-            let (leaf, probability) = tree.pick(p, n, u / share)?;
+            let (leaf, probability) = tree.pick(from, u / share)?;
             return Some((self.near[leaf], share * probability));
         }
         if self.far.is_empty() {
@@ -81,25 +101,27 @@ impl LightSampler {
         Some((self.far[i], (1.0 - share) * self.far_probability(i)))
     }
 
-    /// The probability with which [`Self::pick`] chooses the light.
+    /// The probability with which [`Self::pick`] chooses the piece.
     #[inline]
-    pub(super) fn probability(&self, p: Vec3, n: Vec3, light: usize) -> f32 {
-        let (tree, share) = self.near_share(p, n);
-        match (self.places[light], tree) {
-            (Place::Near(leaf), Some(tree)) if share > 0.0 => share * tree.probability(p, n, leaf),
+    pub(super) fn probability(&self, from: &Lookout, piece: Piece) -> f32 {
+        let (tree, share) = self.near_share(from);
+        match (self.places[piece.light], tree) {
+            (Place::Near(first), Some(tree)) if share > 0.0 => {
+                share * tree.probability(from, first + piece.piece)
+            }
             (Place::Near(_), _) => 0.0,
-            (Place::Far(i), _) => (1.0 - share) * self.far_probability(i),
+            (Place::Far(first), _) => (1.0 - share) * self.far_probability(first + piece.piece),
         }
     }
 
     /// The tree, and the probability with which it is asked.
     #[inline]
-    fn near_share(&self, p: Vec3, n: Vec3) -> (Option<&LightTree>, f32) {
+    fn near_share(&self, from: &Lookout) -> (Option<&LightTree>, f32) {
         let Some(tree) = &self.tree else { return (None, 0.0) };
         if self.far.is_empty() {
             return (Some(tree), 1.0);
         }
-        let near = tree.importance(p, n);
+        let near = tree.importance(from);
         let share = near / (near + self.far_irradiance);
         let share = if near > 0.0 { 0.5 * EVEN + (1.0 - EVEN) * share.min(1.0) } else { 0.0 };
         (Some(tree), share)
@@ -108,4 +130,25 @@ impl LightSampler {
     fn far_probability(&self, i: usize) -> f32 {
         sums::share(&self.sums, i) as f32
     }
+}
+
+impl Reach {
+    /// About what it sends into a ball of that radius, in W.
+    fn power(&self, radius: f32) -> f32 {
+        match self {
+            Self::Near(cluster) => cluster.power(),
+            Self::Far(irradiance) => PI * radius * radius * irradiance,
+        }
+    }
+}
+
+/// Radius of the ball around all near lights; 1 where they do not span any.
+fn extent(lights: &[Vec<Reach>]) -> f32 {
+    let bounds = |reach: &Reach| match reach {
+        Reach::Near(cluster) => cluster.bounds,
+        Reach::Far(_) => Aabb::EMPTY,
+    };
+    let all = lights.iter().flatten().map(bounds).fold(Aabb::EMPTY, Aabb::union);
+    let radius = if all.is_empty() { 0.0 } else { all.radius() };
+    if radius > 0.0 { radius } else { 1.0 }
 }

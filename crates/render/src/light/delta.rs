@@ -6,18 +6,28 @@ use super::{LightSample, Target, Use};
 use glam::{Vec2, Vec3};
 use heliostat_geometry::warp::{cone_pdf, square_to_cone};
 use heliostat_geometry::{Aabb, OrthonormalFrame};
-use heliostat_scene::Rgb;
 use heliostat_scene::color::luminance;
 use heliostat_scene::light::Falloff;
+use heliostat_scene::{Profile, Rgb};
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+use std::sync::Arc;
 
-/// A point light, with a cone if it is a spot.
+/// A point light, with a cone if it is a spot, or as a lamp was measured.
 #[derive(Debug)]
 pub(super) struct PointLight {
     intensity: Rgb,
     position: Vec3,
     falloff: Falloff,
-    cone: Option<Cone>,
+    spread: Spread,
+}
+
+/// How much of the light goes where.
+#[derive(Debug)]
+enum Spread {
+    Even,
+    Cone(Cone),
+    /// In a frame whose z is the axis.
+    Measured(OrthonormalFrame, Arc<Profile>),
 }
 
 /// Where a spot shines.
@@ -30,25 +40,43 @@ struct Cone {
 
 impl PointLight {
     pub(super) fn new(intensity: Rgb, position: Vec3, falloff: Falloff) -> Self {
-        Self { intensity, position, falloff, cone: None }
+        Self { intensity, position, falloff, spread: Spread::Even }
     }
 
     /// The same light, full within `inner` radians of `axis` and gone at `outer`.
     pub(super) fn into_cone(self, axis: Vec3, inner: f32, outer: f32) -> Self {
         let (cos_inner, cos_outer) = (inner.clamp(0.0, PI).cos(), outer.clamp(0.0, PI).cos());
-        Self { cone: Some(Cone { axis, cos_inner, cos_outer }), ..self }
+        Self { spread: Spread::Cone(Cone { axis, cos_inner, cos_outer }), ..self }
+    }
+
+    /// The same light with the intensities of a profile around `axis`, turned so that `across` is its zero.
+    pub(super) fn into_measured(self, axis: Vec3, across: Vec3, profile: Arc<Profile>) -> Self {
+        let z = axis.normalize_or(Vec3::NEG_Y);
+        let frame = match (across - across.dot(z) * z).try_normalize() {
+            Some(x) => OrthonormalFrame { x, y: z.cross(x), z },
+            None => OrthonormalFrame::around(z),
+        };
+        Self { spread: Spread::Measured(frame, profile), ..self }
     }
 
     /// What a choice among lights has to know of it.
     pub(super) fn reach(&self) -> Reach {
-        let intensity = luminance(self.intensity);
+        let peak = match &self.spread {
+            Spread::Measured(_, profile) => profile.peak(),
+            Spread::Even | Spread::Cone(_) => 1.0,
+        };
+        let intensity = peak * luminance(self.intensity);
         if self.falloff == Falloff::None {
             return Reach::Far(intensity);
         }
         let bounds = Aabb { min: self.position, max: self.position };
-        let (normals, spread) = match &self.cone {
-            None => (cluster::Cone::ALL, FRAC_PI_2),
-            Some(Cone { axis, cos_inner, cos_outer }) => {
+        let (normals, spread) = match &self.spread {
+            Spread::Even => (cluster::Cone::ALL, FRAC_PI_2),
+            Spread::Measured(frame, profile) => {
+                let half = 0.5 * profile.reach();
+                (cluster::Cone { axis: frame.z, angle: half }, half)
+            }
+            Spread::Cone(Cone { axis, cos_inner, cos_outer }) => {
                 let inner = cos_inner.acos();
                 (cluster::Cone { axis: *axis, angle: inner }, cos_outer.acos() - inner)
             }
@@ -64,7 +92,14 @@ impl PointLight {
             return None;
         }
         let to_light = to_light / distance_squared.sqrt();
-        let share = self.cone.as_ref().map_or(1.0, |cone| cone.share(-to_light));
+        let share = match &self.spread {
+            Spread::Even => 1.0,
+            Spread::Cone(cone) => cone.share(-to_light),
+            Spread::Measured(frame, profile) => {
+                let dir = frame.to_local(-to_light);
+                profile.intensity(dir.z.clamp(-1.0, 1.0).acos(), dir.y.atan2(dir.x))
+            }
+        };
         if share == 0.0 {
             return None;
         }

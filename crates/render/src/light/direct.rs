@@ -118,7 +118,7 @@ fn from_sample(
     blockers: Candidates,
     counters: &mut RayCounters,
 ) -> Rgb {
-    let Some(sample) = light.sample(point.horizon.start.p, u, point.time) else { return Rgb::ZERO };
+    let Some(sample) = light.sample(point.horizon.start.p, 0, u, point.time) else { return Rgb::ZERO };
 
     let share = point.horizon.facing(sample.to_light);
     if share <= 0.0 {

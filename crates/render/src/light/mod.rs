@@ -4,6 +4,7 @@
 //! stands in between is asked by [`direct`]. Whitted's recursion asks every light; paths ask one, and [`whole`] chooses which.
 
 mod area;
+mod beams;
 mod bundle;
 mod choice;
 mod cluster;
@@ -11,6 +12,7 @@ mod delta;
 pub(crate) mod direct;
 mod emitter;
 mod flat;
+mod lamps;
 mod sky;
 mod sphere;
 mod spherical_rectangle;
@@ -21,6 +23,7 @@ mod whole;
 
 pub(crate) use whole::Lookout;
 
+use crate::atmosphere::SunDisk;
 use crate::world::{Hull, Lamp};
 use area::{AreaLight, FlatLamp};
 use choice::{LightSampler, Reach};
@@ -28,9 +31,14 @@ use delta::{DirectionalLight, PointLight};
 use glam::{Vec2, Vec3};
 use heliostat_geometry::{Aabb, SurfacePoint};
 use heliostat_scene::light::LightKind;
-use heliostat_scene::{Light, Rgb, Scene};
+use heliostat_scene::object::Geometry;
+use heliostat_scene::settings::LightChoice;
+use heliostat_scene::{Light, MaterialId, Object, Rgb, Scene};
+use lamps::Lamps;
 use sky::Sky;
 use std::borrow::Cow;
+use std::f32::consts::FRAC_1_PI;
+use std::sync::Arc;
 
 /// Shadow rays per point towards an object whose material shines.
 const SHINING_OBJECT_SAMPLES: u32 = 16;
@@ -87,6 +95,8 @@ enum Source<'s> {
     Point(PointLight),
     Directional(DirectionalLight),
     Area(AreaLight<'s>),
+    /// The disc of the sun, with the factor by which it lights: 1, but for Whitted the share of a surface that answers it.
+    Sun(SunDisk, f32),
 }
 
 impl<'s> PreparedLight<'s> {
@@ -95,6 +105,7 @@ impl<'s> PreparedLight<'s> {
             Source::Point(_) => (false, None),
             Source::Directional(light) => (light.is_wide(), None),
             Source::Area(light) => (true, light.hull()),
+            Source::Sun(..) => (true, None),
         };
         let samples = if is_extended { samples.max(1) } else { 1 };
         Self { samples, is_extended, surface, source }
@@ -106,7 +117,7 @@ impl<'s> PreparedLight<'s> {
     #[inline]
     pub(crate) fn hull(&self, p: Vec3, scene: Aabb) -> Option<Cow<'_, Hull>> {
         match &self.source {
-            Source::Point(_) => None,
+            Source::Point(_) | Source::Sun(..) => None,
             Source::Directional(light) => {
                 let hull = |bounds| Cow::Owned(Hull::of_box(bounds).endless());
                 light.bounds(p, scene).map(hull)
@@ -120,26 +131,32 @@ impl<'s> PreparedLight<'s> {
     fn flat_lamp(&self) -> Option<FlatLamp<'_>> {
         match &self.source {
             Source::Area(light) => light.flat_lamp(),
-            Source::Point(_) | Source::Directional(_) => None,
+            Source::Point(_) | Source::Directional(_) | Source::Sun(..) => None,
         }
     }
 
-    /// The light that arrives at `p` by the random numbers `u`; `None` where nothing comes this way.
+    /// The light that arrives at `p` from a piece of it, by the random numbers `u`; `None` where nothing comes this way.
     #[inline]
-    pub(crate) fn sample(&self, p: Vec3, u: Vec2, time: f32) -> Option<LightSample> {
+    pub(crate) fn sample(&self, p: Vec3, piece: usize, u: Vec2, time: f32) -> Option<LightSample> {
         match &self.source {
             Source::Point(light) => light.sample(p),
             Source::Directional(light) => Some(light.sample(u)),
-            Source::Area(light) => light.sample(p, u, time),
+            Source::Area(light) => light.sample(p, piece, u, time),
+            Source::Sun(disk, share) => {
+                let (to_light, radiance, pdf) = disk.sample(u);
+                let arriving = share / pdf * radiance;
+                Some(LightSample { to_light, arriving, pdf, target: Target::Sky })
+            }
         }
     }
 
-    /// What a choice among lights has to know of it.
-    fn reach(&self) -> Reach {
+    /// What a choice among lights has to know of each piece of it.
+    fn reaches(&self) -> Vec<Reach> {
         match &self.source {
-            Source::Point(light) => light.reach(),
-            Source::Directional(light) => light.reach(),
-            Source::Area(light) => light.reach(),
+            Source::Point(light) => vec![light.reach()],
+            Source::Directional(light) => vec![light.reach()],
+            Source::Area(light) => light.reaches(),
+            Source::Sun(disk, _) => vec![Reach::Far(disk.brightness())],
         }
     }
 }
@@ -172,35 +189,53 @@ impl<'s> LightTable<'s> {
     /// The lights of a scene whose ids are valid.
     ///
     /// `lamps` are the parts of groups that may shine.
-    pub(crate) fn new(scene: &'s Scene, lamps: Vec<Lamp<'s>>, used: Use) -> Self {
+    pub(crate) fn new(scene: &'s Scene, lamps: Vec<Lamp<'s>>, used: Use, choice: LightChoice) -> Self {
         let ambient = |light: &&Light| matches!(light.kind, LightKind::Ambient);
         let ambient = scene.lights.iter().filter(ambient).map(|light| light.intensity).sum();
         let (mut lights, mut owners) = (Vec::new(), Owners::default());
+        let mut stock = Lamps::new(scene, used, shining(scene) + lamps.len());
         for light in &scene.lights {
-            let prepared = prepare(scene, light, used);
+            let prepared = prepare(&mut stock, light);
             owners.declared.push(prepared.is_some().then_some(lights.len()));
             lights.extend(prepared);
         }
         let objects = (0..).zip(&scene.objects);
-        let objects = objects.map(|(i, object)| ((i, 0), AreaLight::of_object(scene, object)));
-        let parts = lamps.into_iter().map(|lamp| (lamp.owner, AreaLight::of_part(scene, lamp)));
-        for (owner, light) in objects.chain(parts) {
-            let Some(light) = light else { continue };
+        let mut add = |owner, light: Option<AreaLight<'s>>| {
+            let Some(light) = light else { return };
             owners.shining.push((owner, lights.len()));
             lights.push(PreparedLight::new(SHINING_OBJECT_SAMPLES, Source::Area(light)));
-        }
+        };
+        objects.for_each(|(i, object)| add((i, 0), AreaLight::of_object(&mut stock, object)));
+        lamps.into_iter().for_each(|lamp| add(lamp.owner, AreaLight::of_part(&mut stock, lamp)));
         owners.shining.sort_unstable_by_key(|&(owner, _)| owner);
-        let is_sun =
-            |light: &PreparedLight<'_>| matches!(&light.source, Source::Directional(sun) if sun.is_wide());
+        let (sky, disk) = Sky::new(&scene.background, ambient, used);
+        // Whitted's lights say what a white surface shows of them.
+        let share = if used == Use::Recursion { FRAC_1_PI } else { 1.0 };
+        lights.extend(disk.map(|disk| PreparedLight::new(1, Source::Sun(disk, share))));
+        let is_sun = |light: &PreparedLight<'_>| match &light.source {
+            Source::Directional(sun) => sun.is_wide(),
+            Source::Sun(..) => true,
+            Source::Point(_) | Source::Area(_) => false,
+        };
         let suns = (0..lights.len()).filter(|&i| is_sun(&lights[i])).collect();
-        let sky = Sky::new(&scene.background, ambient, used);
-        let sampler = whole::sampler(&lights, &sky);
+        let sampler = whole::sampler(&lights, &sky, choice);
         Self { ambient, lights, sky, suns, owners, sampler }
     }
 }
 
+/// How many objects and lights of a scene may be meshes that shine.
+fn shining(scene: &Scene) -> usize {
+    let shines = |object: &&Object| {
+        let emits = |id: &MaterialId| !scene.materials[id.index()].surface.emission().is_zero();
+        matches!(object.geometry, Geometry::Mesh(_)) && object.materials.iter().any(emits)
+    };
+    let is_area = |light: &&Light| matches!(&light.kind, LightKind::Area { geometry: Geometry::Mesh(_), .. });
+    scene.objects.iter().filter(shines).count() + scene.lights.iter().filter(is_area).count()
+}
+
 /// A light that shines from somewhere, made ready; `None` for an ambient or a dark one.
-fn prepare<'s>(scene: &'s Scene, light: &'s Light, used: Use) -> Option<PreparedLight<'s>> {
+fn prepare<'s>(stock: &mut Lamps<'s>, light: &'s Light) -> Option<PreparedLight<'s>> {
+    let used = stock.used;
     if light.intensity == Rgb::ZERO {
         return None;
     }
@@ -216,7 +251,11 @@ fn prepare<'s>(scene: &'s Scene, light: &'s Light, used: Use) -> Option<Prepared
         LightKind::Directional { direction, angle } => {
             Source::Directional(DirectionalLight::new(light.intensity, *direction, *angle, used))
         }
-        LightKind::Area { .. } => Source::Area(AreaLight::of_light(scene, light, used)?),
+        LightKind::Measured { position, axis, across, profile, falloff } => {
+            let point = PointLight::new(light.intensity, *position, *falloff);
+            Source::Point(point.into_measured(*axis, *across, Arc::clone(profile)))
+        }
+        LightKind::Area { .. } => Source::Area(AreaLight::of_light(stock, light)?),
     };
     Some(PreparedLight::new(light.samples, source))
 }

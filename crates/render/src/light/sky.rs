@@ -9,6 +9,7 @@
 
 use super::table2d::Table2d;
 use super::{LightSample, Target, Use};
+use crate::atmosphere::{self, DaySky, SunDisk};
 use crate::background::{self, direction, equirectangular};
 use glam::{Vec2, Vec3};
 use heliostat_scene::color::luminance;
@@ -19,6 +20,9 @@ use std::f32::consts::{FRAC_1_PI, PI};
 /// Rows of the table of a gradient.
 const GRADIENT_ROWS: usize = 64;
 
+/// Rows of the table of daylight.
+const DAY_ROWS: usize = 128;
+
 /// Light from infinitely far, from all around.
 #[derive(Debug)]
 pub(crate) struct Sky<'s> {
@@ -28,6 +32,8 @@ pub(crate) struct Sky<'s> {
     /// Mean luminance.
     mean: f32,
     table: Option<Table2d>,
+    /// What the air makes, where it does.
+    day: Option<DaySky>,
 }
 
 /// Luminances of the sky, row by row from the top, as an equirectangular image.
@@ -37,30 +43,40 @@ struct Grid {
 }
 
 impl<'s> Sky<'s> {
-    /// The sky of a background and of ambient light that throws the irradiance `ambient` on an open surface.
-    pub(super) fn new(background: &'s Background, ambient: Rgb, used: Use) -> Self {
+    /// The sky of a background, with its sun, and of ambient light that throws the irradiance `ambient` on an open surface.
+    pub(super) fn new(background: &'s Background, ambient: Rgb, used: Use) -> (Self, Option<SunDisk>) {
         let unseen = FRAC_1_PI * ambient;
-        let mut sky = Self { background, unseen, mean: luminance(unseen), table: None };
+        let mut sky = Self { background, unseen, mean: luminance(unseen), table: None, day: None };
+        let mut sun = None;
         let grid = match background {
             Background::Constant(color) => {
                 sky.mean += luminance(*color);
-                return sky;
+                return (sky, None);
             }
             Background::Gradient { .. } => Grid::of_gradient(background),
             Background::Image { image, intensity, .. } => Grid::of_image(image, *intensity),
+            Background::Daylight(day) => {
+                let (day, disk) = atmosphere::daylight(day);
+                let grid = Grid::of_day(&day);
+                (sky.day, sun) = (Some(day), disk);
+                grid
+            }
         };
         if used == Use::Paths {
             let mean = grid.mean();
             sky.mean += mean as f32;
             sky.table = grid.table(mean);
         }
-        sky
+        (sky, sun)
     }
 
     /// What is seen in the unit direction `dir`.
     #[inline]
     pub(crate) fn seen(&self, dir: Vec3) -> Rgb {
-        background::radiance(self.background, dir)
+        match &self.day {
+            Some(day) => day.radiance(dir),
+            None => background::radiance(self.background, dir),
+        }
     }
 
     /// What lights surfaces from the unit direction `dir`.
@@ -106,7 +122,7 @@ impl<'s> Sky<'s> {
     fn rotation(&self) -> f32 {
         match self.background {
             Background::Image { rotation, .. } => *rotation,
-            Background::Constant(_) | Background::Gradient { .. } => 0.0,
+            Background::Constant(_) | Background::Gradient { .. } | Background::Daylight(_) => 0.0,
         }
     }
 }
@@ -118,6 +134,15 @@ impl Grid {
             luminance(background::radiance(background, direction(at, 0.0).0))
         };
         Self { columns: 1, luminances: (0..GRADIENT_ROWS).map(row).collect() }
+    }
+
+    fn of_day(day: &DaySky) -> Self {
+        let (columns, rows) = (2 * DAY_ROWS, DAY_ROWS);
+        let cell = |i: usize| {
+            let at = Vec2::new((i % columns) as f32 + 0.5, (i / columns) as f32 + 0.5);
+            luminance(day.radiance(direction(at / Vec2::new(columns as f32, rows as f32), 0.0).0))
+        };
+        Self { columns, luminances: (0..columns * rows).map(cell).collect() }
     }
 
     /// The mean over each pixel of what linear interpolation between pixels makes of them.
@@ -195,7 +220,7 @@ mod tests {
     #[test]
     fn samples_and_density_agree_and_the_density_is_one() {
         let background = background();
-        let sky = Sky::new(&background, Rgb::ZERO, Use::Paths);
+        let sky = Sky::new(&background, Rgb::ZERO, Use::Paths).0;
         let mut sum = 0.0;
         for u in square(256) {
             sum += f64::from(sky.density(square_to_sphere(u)) / SPHERE_PDF) / f64::from(256 * 256);
@@ -207,9 +232,28 @@ mod tests {
     }
 
     #[test]
+    fn the_density_of_daylight_is_one() {
+        let day = Background::Daylight(heliostat_scene::scene::Daylight {
+            to_sun: Vec3::new(0.9, 0.1, 0.3).normalize(),
+            turbidity: 3.0,
+            ground_albedo: Rgb::splat(0.2),
+            intensity: Rgb::ONE,
+            sun: 1.0,
+        });
+        let sky = Sky::new(&day, Rgb::ZERO, Use::Paths).0;
+        let densities = square(512).map(|u| f64::from(sky.density(square_to_sphere(u)) / SPHERE_PDF));
+        let sum = densities.sum::<f64>() / f64::from(512 * 512);
+        assert!((sum - 1.0).abs() < 5e-3, "{sum}");
+        for sample in square(37).filter_map(|u| sky.sample(u)) {
+            assert!((sky.density(sample.to_light) / sample.pdf - 1.0).abs() < 1e-3);
+            assert!(sample.arriving.is_finite());
+        }
+    }
+
+    #[test]
     fn what_is_brighter_than_the_mean_is_drawn_in_full() {
         let background = background();
-        let sky = Sky::new(&background, Rgb::ZERO, Use::Paths);
+        let sky = Sky::new(&background, Rgb::ZERO, Use::Paths).0;
         let n = 1024;
         let is_drawn = |dir: Vec3| sky.density(dir) > 0.0;
         let expected: f64 = square(n)
@@ -228,6 +272,6 @@ mod tests {
     #[test]
     fn an_even_sky_is_left_to_the_surfaces() {
         let even = Background::Constant(Rgb::ONE);
-        assert!(!Sky::new(&even, Rgb::ONE, Use::Paths).is_sampled());
+        assert!(!Sky::new(&even, Rgb::ONE, Use::Paths).0.is_sampled());
     }
 }

@@ -1,11 +1,12 @@
 //! All lights of a scene as one, for paths: a light is chosen, and asked for a sample.
 
-use super::choice::{LightSampler, Reach};
+use super::choice::{LightSampler, Piece, Reach};
 use super::sky::Sky;
 use super::{LightSample, LightTable, Owners, PreparedLight, Source};
 use crate::world::{Owner, SurfaceHit};
 use glam::{Vec2, Vec3};
 use heliostat_scene::Rgb;
+use heliostat_scene::settings::LightChoice;
 
 /// From where light is looked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,6 +17,8 @@ pub(crate) struct Lookout {
     pub(crate) n: Vec3,
     /// Over the shutter.
     pub(crate) time: f32,
+    /// Whether light from behind the surface matters too.
+    pub(crate) is_open: bool,
 }
 
 impl LightTable<'_> {
@@ -23,9 +26,9 @@ impl LightTable<'_> {
     /// and density. `None` where nothing comes this way.
     #[inline]
     pub(crate) fn draw(&self, from: &Lookout, choice: f32, u: Vec2) -> Option<LightSample> {
-        let (light, probability) = self.sampler.pick(from.p, from.n, choice)?;
+        let (Piece { light, piece }, probability) = self.sampler.pick(from, choice)?;
         let sample = match self.lights.get(light) {
-            Some(light) => light.sample(from.p, u, from.time)?,
+            Some(light) => light.sample(from.p, piece, u, from.time)?,
             None => self.sky.sample(u)?,
         };
         Some(LightSample { arriving: sample.arriving / probability, pdf: sample.pdf * probability, ..sample })
@@ -37,7 +40,9 @@ impl LightTable<'_> {
     pub(crate) fn density(&self, from: &Lookout, hit: &SurfaceHit) -> f32 {
         let Some(light) = self.owners.light_of(hit) else { return 0.0 };
         let Source::Area(area) = &self.lights[light].source else { return 0.0 };
-        self.sampler.probability(from.p, from.n, light) * area.density(from.p, hit, from.time)
+        let Some(piece) = area.piece_of(hit) else { return 0.0 };
+        let probability = self.sampler.probability(from, Piece { light, piece });
+        if probability > 0.0 { probability * area.density(from.p, piece, hit, from.time) } else { 0.0 }
     }
 
     /// What lights a surface from infinitely far, in a unit direction, by the share that `weight` gives for the density of
@@ -45,13 +50,11 @@ impl LightTable<'_> {
     #[inline]
     pub(crate) fn beyond(&self, from: &Lookout, dir: Vec3, weight: impl Fn(f32) -> f32) -> Rgb {
         let density = |light: usize, pdf: f32| {
-            if pdf > 0.0 { pdf * self.sampler.probability(from.p, from.n, light) } else { 0.0 }
+            if pdf > 0.0 { pdf * self.sampler.probability(from, Piece { light, piece: 0 }) } else { 0.0 }
         };
         let mut sum = weight(density(self.lights.len(), self.sky.density(dir))) * self.sky.radiance(dir);
         for &sun in &self.suns {
-            if let Source::Directional(light) = &self.lights[sun].source
-                && let Some((radiance, pdf)) = light.seen(dir)
-            {
+            if let Some((radiance, pdf)) = self.lights[sun].seen_afar(dir) {
                 sum += weight(density(sun, pdf)) * radiance;
             }
         }
@@ -60,18 +63,37 @@ impl LightTable<'_> {
 
     /// What a mirror shows of infinitely far away.
     pub(crate) fn mirrored(&self, dir: Vec3) -> Rgb {
-        let sun = |&sun: &usize| match &self.lights[sun].source {
-            Source::Directional(light) => light.seen(dir).map_or(Rgb::ZERO, |(radiance, _)| radiance),
-            Source::Point(_) | Source::Area(_) => Rgb::ZERO,
-        };
+        let sun = |&sun: &usize| self.lights[sun].seen_afar(dir).map_or(Rgb::ZERO, |(radiance, _)| radiance);
         self.sky.seen(dir) + self.suns.iter().map(sun).sum::<Rgb>()
+    }
+
+    /// What the camera sees of infinitely far away: lights hide from it, the sun of the sky does not.
+    pub(crate) fn seen(&self, dir: Vec3) -> Rgb {
+        let disk = |&sun: &usize| match &self.lights[sun].source {
+            Source::Sun(disk, _) => disk.seen(dir).map_or(Rgb::ZERO, |(radiance, _)| radiance),
+            Source::Point(_) | Source::Area(_) | Source::Directional(_) => Rgb::ZERO,
+        };
+        self.sky.seen(dir) + self.suns.iter().map(disk).sum::<Rgb>()
+    }
+}
+
+impl PreparedLight<'_> {
+    /// Radiance and density of what covers a part of the sky; `None` beside it.
+    #[inline]
+    fn seen_afar(&self, dir: Vec3) -> Option<(Rgb, f32)> {
+        match &self.source {
+            Source::Directional(light) => light.seen(dir),
+            Source::Sun(disk, _) => disk.seen(dir),
+            Source::Point(_) | Source::Area(_) => None,
+        }
     }
 }
 
 /// The choice among lights, the sky behind them where it is worth asking.
-pub(super) fn sampler(lights: &[PreparedLight<'_>], sky: &Sky<'_>) -> LightSampler {
-    let sky = sky.is_sampled().then(|| Reach::Far(sky.irradiance()));
-    LightSampler::new(lights.iter().map(PreparedLight::reach).chain(sky))
+pub(super) fn sampler(lights: &[PreparedLight<'_>], sky: &Sky<'_>, choice: LightChoice) -> LightSampler {
+    let sky = sky.is_sampled().then(|| vec![Reach::Far(sky.irradiance())]);
+    let reaches: Vec<_> = lights.iter().map(PreparedLight::reaches).chain(sky).collect();
+    LightSampler::new(&reaches, choice)
 }
 
 impl Owners {
@@ -139,7 +161,7 @@ mod tests {
         let settings = RenderSettings { integrator: IntegratorKind::Path, ..RenderSettings::default() };
         let world = World::new(scene, &settings).unwrap();
         for p in [Vec3::ZERO, Vec3::new(2.4, -0.8, 0.5), Vec3::new(-3.0, 1.1, 5.0)] {
-            test(&world, &Lookout { p, n: Vec3::Y, time: 0.0 });
+            test(&world, &Lookout { p, n: Vec3::Y, time: 0.0, is_open: true });
         }
     }
 

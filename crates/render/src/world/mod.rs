@@ -10,6 +10,7 @@ mod body;
 mod bound;
 mod crossing;
 mod error;
+mod eye;
 mod filter;
 mod group;
 mod hit;
@@ -29,6 +30,7 @@ mod volumes;
 use crossing::coincide;
 pub(crate) use crossing::{Inside, PassingRay};
 pub use error::WorldError;
+pub(crate) use eye::Eye;
 pub(crate) use group::{Chain, Lamp, PreparedGroup};
 pub use hit::{Owner, SurfaceHit};
 pub(crate) use hull::Hull;
@@ -86,8 +88,8 @@ pub struct World<'s> {
     has_filters: bool,
     /// Which transparent surfaces let light through.
     clear: Clear,
-    /// Whether all objects are seen by camera rays.
-    all_visible: bool,
+    /// Whether every object is there for camera and scattered rays.
+    all_seen: bool,
     /// Whether light is followed below surfaces.
     walks: bool,
     volumes: Volumes<'s>,
@@ -140,9 +142,9 @@ impl<'s> World<'s> {
             known_bsdfs: KnownBsdfs::new(scene, walks),
             walks,
             volumes: Volumes::new(scene, &census, solids.len(), &level),
-            lights: LightTable::new(scene, lamps(scene, &groups), used),
+            lights: LightTable::new(scene, lamps(scene, &groups), used, settings.light_choice),
             has_filters: shadows.iter().any(|shadow| shadow.filters),
-            all_visible: scene.objects.iter().all(|object| object.visible),
+            all_seen: scene.objects.iter().all(|object| object.visible && object.casts_shadow),
             groups: in_order(scene, groups),
             level,
             scene,
@@ -182,12 +184,12 @@ impl<'s> World<'s> {
 
     /// The nearest surface that a ray meets at `time` in `[0, 1]` over the shutter.
     pub fn closest_hit(&self, ray: &Ray, time: f32) -> Option<SurfaceHit> {
-        self.seen(&PassingRay::free(*ray), time, false)
+        self.seen(&PassingRay::free(*ray), time, Eye::Any)
     }
 
     /// The nearest surface that the camera sees along a ray.
     pub fn camera_hit(&self, ray: &Ray, time: f32) -> Option<SurfaceHit> {
-        self.seen(&PassingRay::free(*ray), time, true)
+        self.seen(&PassingRay::free(*ray), time, Eye::Camera)
     }
 
     /// [`World::camera_hit`] that adds the work on both levels to `cost`.
@@ -195,8 +197,8 @@ impl<'s> World<'s> {
         let below = Cell::new(TraversalCost::default());
         let passing = PassingRay::free(*ray);
         let found = self.level.closest_counted(ray, cost, |i, ray, met| {
-            let look = Look { passing: &passing, solid: i, time, camera: true, cost: Some(&below) };
-            self.is_seen(i, true).then(|| self.meet(&look, ray, met))?
+            let look = Look { passing: &passing, solid: i, time, eye: Eye::Camera, cost: Some(&below) };
+            self.is_seen(i, Eye::Camera).then(|| self.meet(&look, ray, met))?
         });
         let below = below.get();
         cost.nodes += below.nodes;
@@ -206,9 +208,9 @@ impl<'s> World<'s> {
         self.surface(found.primitive, ray, time, &found.data, Parameters::Used)
     }
 
-    /// The nearest thing on the way of a ray; invisible objects are left out for the camera.
-    pub(crate) fn seen(&self, passing: &PassingRay, time: f32, camera: bool) -> Option<SurfaceHit> {
-        self.nearest(passing, time, camera, |_| Parameters::Used)
+    /// The nearest thing on the way of a ray that the eye sees.
+    pub(crate) fn seen(&self, passing: &PassingRay, time: f32, eye: Eye) -> Option<SurfaceHit> {
+        self.nearest(passing, time, eye, |_| Parameters::Used)
     }
 
     #[inline]
@@ -216,14 +218,14 @@ impl<'s> World<'s> {
         &self,
         passing: &PassingRay,
         time: f32,
-        camera: bool,
+        eye: Eye,
         parameters: impl Fn(u32) -> Parameters,
     ) -> Option<SurfaceHit> {
         let found = self.level.closest(&passing.ray, |i, search, met| {
-            if !self.is_seen(i, camera) {
+            if !self.is_seen(i, eye) {
                 return None;
             }
-            self.meet(&Look { passing, solid: i, time, camera, cost: None }, search, met)
+            self.meet(&Look { passing, solid: i, time, eye, cost: None }, search, met)
         })?;
         let thing = Thing { solid: found.primitive, part: found.data.part };
         let mut room = None;
@@ -261,9 +263,9 @@ impl<'s> World<'s> {
         passing: &PassingRay,
         inside: Option<&Inside>,
         time: f32,
-        camera: bool,
+        eye: Eye,
     ) -> Option<SurfaceHit> {
-        let seen = self.nearest(passing, time, camera, |i| self.parameters[i as usize]);
+        let seen = self.nearest(passing, time, eye, |i| self.parameters[i as usize]);
         let (Some(inside), Some(surface)) = (inside, &seen) else { return seen };
         if surface.thing() == Some(inside.thing) {
             return seen;
@@ -312,10 +314,10 @@ impl<'s> World<'s> {
         self.lights.ambient
     }
 
-    fn is_seen(&self, solid: u32, camera: bool) -> bool {
-        !camera
-            || self.all_visible
-            || self.scene.objects.get(solid as usize).is_none_or(|object| object.visible)
+    fn is_seen(&self, solid: u32, eye: Eye) -> bool {
+        eye == Eye::Any
+            || self.all_seen
+            || self.scene.objects.get(solid as usize).is_none_or(|object| eye.sees(object))
     }
 
     #[inline]
@@ -436,7 +438,7 @@ fn lamps<'s>(scene: &'s Scene, groups: &Groups<'s>) -> Vec<Lamp<'s>> {
     let mut lamps = Vec::new();
     for (i, object) in (0..).zip(&scene.objects) {
         if let Geometry::Group(id) = &object.geometry {
-            groups[id].each_lamp(i, Place::of(&object.motion), &mut |lamp| lamps.push(lamp));
+            groups[id].each_lamp(i, object, &mut |lamp| lamps.push(lamp));
         }
     }
     lamps

@@ -3,7 +3,7 @@
 use super::group::Look;
 use super::level::Level;
 use super::thing::Met;
-use super::{Inside, PassingRay, SurfaceHit, Thing, World};
+use super::{Eye, Inside, PassingRay, SurfaceHit, Thing, World};
 use crate::interiors::Interiors;
 use crate::medium::PreparedMedium;
 use crate::medium::flight::Way;
@@ -78,7 +78,9 @@ impl<'s> Volumes<'s> {
 fn everything(scene: &Scene, bounds: Aabb) -> Aabb {
     let poses = scene.cameras.iter().flat_map(|camera| camera.motion.poses());
     let lights = scene.lights.iter().filter_map(|light| match &light.kind {
-        LightKind::Point { position, .. } | LightKind::Spot { position, .. } => Some(*position),
+        LightKind::Point { position, .. }
+        | LightKind::Spot { position, .. }
+        | LightKind::Measured { position, .. } => Some(*position),
         LightKind::Area { transform, .. } => Some(transform.point(Vec3::ZERO)),
         LightKind::Ambient | LightKind::Directional { .. } => None,
     });
@@ -143,7 +145,7 @@ impl<'s> World<'s> {
             return None;
         }
         let found = self.level.closest(&passing.ray, |solid, search, met| {
-            let look = Look { passing, solid, time, camera: false, cost: None };
+            let look = Look { passing, solid, time, eye: Eye::Any, cost: None };
             self.volumes.hosts[solid as usize].then(|| self.meet(&look, search, met))?
         })?;
         let thing = Thing { solid: found.primitive, part: found.data.part };
@@ -174,7 +176,7 @@ impl<'s> World<'s> {
     /// Adds the parts of a solid that hold a point, with the distances to their surfaces.
     fn holders(&self, solid: u32, p: Vec3, time: f32, found: &mut Vec<(f32, Inside)>) {
         let passing = PassingRay::free(Ray::new(p, OUTWARD));
-        let look = Look { passing: &passing, solid, time, camera: false, cost: None };
+        let look = Look { passing: &passing, solid, time, eye: Eye::Any, cost: None };
         let mut rest = passing.ray;
         let mut seen: Vec<Thing> = Vec::new();
         for _ in 0..MOST_SURFACES {

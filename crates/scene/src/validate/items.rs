@@ -143,6 +143,11 @@ fn check_light(scene: &Scene, kind: &LightKind, c: &mut Collector<'_>) {
             c.number("outer", *outer, "from 0 to pi", |v| (0.0..=PI).contains(&v));
             c.number("inner", *inner, "from 0 to outer", |v| v >= 0.0 && v <= *outer);
         }
+        LightKind::Measured { position, axis, across, .. } => {
+            c.finite("position", position.is_finite());
+            check_direction(*axis, c);
+            check_direction(axis.cross(*across), c);
+        }
         LightKind::Area { geometry, transform, .. } => {
             check_geometry(geometry, c);
             c.finite("the transform", transform.matrix().is_finite());
@@ -214,6 +219,13 @@ pub(super) fn background<'a>(scene: &'a Scene, c: &mut Collector<'a>) {
             check_image(image, c);
             c.color("the intensity of the background", *intensity);
             c.finite("the rotation of the background", rotation.is_finite());
+        }
+        Background::Daylight(day) => {
+            check_direction(day.to_sun, c);
+            c.number("turbidity", day.turbidity, "from 1 to 32", |v| (1.0..=32.0).contains(&v));
+            c.color("the albedo of the ground", day.ground_albedo);
+            c.color("the intensity of the background", day.intensity);
+            c.not_negative("the factor of the sun", day.sun);
         }
     }
 }

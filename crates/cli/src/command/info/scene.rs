@@ -112,6 +112,7 @@ fn light_kind(kind: &LightKind) -> &'static str {
         LightKind::Point { .. } => "point",
         LightKind::Directional { .. } => "directional",
         LightKind::Spot { .. } => "spot",
+        LightKind::Measured { .. } => "measured",
         LightKind::Area { .. } => "area",
     }
 }

@@ -66,6 +66,11 @@ impl<'b> View<'b> {
         is_rough || cover.coat.is_some_and(|coat| coat.ggx.is_some()) || !fill.is_empty()
     }
 
+    /// Whether anything from below is drawn.
+    pub(crate) fn is_open(&self) -> bool {
+        self.share(Way::Passed) > 0.0 || self.share(Way::Down) > 0.0
+    }
+
     /// The share of the light that goes through without a bend.
     pub(crate) fn straight(&self) -> Rgb {
         let base = &self.bsdf.base;

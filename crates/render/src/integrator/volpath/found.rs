@@ -53,7 +53,7 @@ impl VolPath {
         let (own, asked) = way.chances();
         let radiance = match &way.scattered {
             Some((from, pdf)) => lights.beyond(from, dir, |other| heuristic(pdf * own, other * asked)),
-            None if way.passed_only => lights.sky.seen(dir),
+            None if way.passed_only => lights.seen(dir),
             None => lights.mirrored(dir),
         };
         found.radiance += self.clamped(weight * radiance, way.depth.all().saturating_sub(1));

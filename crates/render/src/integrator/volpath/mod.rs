@@ -93,7 +93,7 @@ impl VolPath {
     /// Follows a path to where it is scattered next, adds what it finds there, and sends it on.
     fn follow(&self, step: &mut Step<'_, '_, '_>, way: &mut Way, found: &mut Found) -> ControlFlow<()> {
         let (world, time) = (step.world, step.time);
-        let seen = world.seen_inside(&way.passing, way.around.last(), time, way.from_camera);
+        let seen = world.seen_inside(&way.passing, way.around.last(), time, way.eye());
         if seen.is_none() {
             // Where nothing is met, bodies that end somewhere were left unnoticed.
             way.around.retain(|inside| !world.bounds_of(inside.thing).is_finite());
@@ -239,7 +239,7 @@ impl VolPath {
         }
         step.counters.scatter += 1;
         let dir = way.passing.ray.dir.normalize();
-        let from = Lookout { p, n: Vec3::ZERO, time: step.time };
+        let from = Lookout { p, n: Vec3::ZERO, time: step.time, is_open: true };
         let (choice, phase) = (step.draws.next_2d(), &matter.medium.phase);
         if let Some(light) = step.world.light_table().draw(&from, choice.x, step.draws.next_2d()) {
             let pdf = phase.density(dir, light.to_light);

@@ -9,7 +9,7 @@ use crate::medium::flight;
 use crate::medium::lead::Lead;
 use crate::path_point::{Covering, Onward, PathPoint};
 use crate::sampler::Sampler;
-use crate::world::{Matter, PassingRay, SurfaceHit};
+use crate::world::{Eye, Matter, PassingRay, SurfaceHit};
 use glam::Vec3;
 use heliostat_scene::Rgb;
 use heliostat_scene::settings::DepthLimits;
@@ -53,6 +53,15 @@ impl Way {
             from_camera: true,
             passed_only: true,
             is_last: false,
+        }
+    }
+
+    /// Who looks along it.
+    pub(super) fn eye(&self) -> Eye {
+        match (self.from_camera, &self.scattered) {
+            (true, _) => Eye::Camera,
+            (false, Some(_)) => Eye::Scattered,
+            (false, None) => Eye::Any,
         }
     }
 

@@ -2,19 +2,19 @@
 
 use super::super::choice::Reach;
 use super::super::cluster::{Cluster, Cone};
-use super::{AreaLight, Radiance, Shortcut};
+use super::super::emitter::EmitterPiece;
+use super::{AreaLight, Shortcut};
 use crate::world::SurfaceHit;
 use glam::Vec3;
 use heliostat_geometry::Transform;
-use heliostat_scene::color::luminance;
 use heliostat_scene::light::Falloff;
 use std::f32::consts::FRAC_PI_2;
 
 impl AreaLight<'_> {
-    /// The density by solid angle with which [`AreaLight::sample`] draws, for `p`, the direction to a hit on its surface;
-    /// infinite where samples alone count.
+    /// The density by solid angle with which [`AreaLight::sample`] draws, for `p` and the piece, the direction to a hit on its
+    /// surface; infinite where samples alone count.
     #[inline]
-    pub(in super::super) fn density(&self, p: Vec3, hit: &SurfaceHit, time: f32) -> f32 {
+    pub(in super::super) fn density(&self, p: Vec3, piece: usize, hit: &SurfaceHit, time: f32) -> f32 {
         if !self.is_met {
             return f32::INFINITY;
         }
@@ -35,46 +35,43 @@ impl AreaLight<'_> {
         }
         let distance_squared = way.length_squared();
         let cos = hit.hit.at.ng.dot(way).abs() / distance_squared.sqrt();
-        self.density_by_area(hit.hit.at.ng, time) * distance_squared / cos
+        self.density_by_area(piece, hit, time) * distance_squared / cos
     }
 
-    /// The density of points per square metre of world space where the normal there is `ng`.
-    fn density_by_area(&self, ng: Vec3, time: f32) -> f32 {
+    /// The piece of the surface that a hit lies on; `None` where it does not shine.
+    #[inline]
+    pub(in super::super) fn piece_of(&self, hit: &SurfaceHit) -> Option<usize> {
+        self.emitter.piece_of(hit)
+    }
+
+    /// The density of points of a piece per square metre of world space.
+    fn density_by_area(&self, piece: usize, hit: &SurfaceHit, time: f32) -> f32 {
         if let Some(Shortcut::Flat(flat) | Shortcut::Rectangle(flat, _)) = &self.shortcut {
             return flat.area.recip();
         }
         let Some(place) = self.stand.now(time) else { return 0.0 };
-        (1.0 / (self.emitter.area() * stretch(&place, ng))) as f32
+        (self.emitter.density(piece, hit) / stretch(&place, hit.hit.at.ng)) as f32
     }
 
-    /// What a choice among lights has to know of it.
-    pub(in super::super) fn reach(&self) -> Reach {
-        let radiance = match self.radiance {
-            Radiance::Constant(radiance) => luminance(radiance),
-            Radiance::Object(scene, object) => {
-                let shine = |id: usize| luminance(scene.materials[id].surface.emission().factor);
-                object.materials.iter().map(|id| shine(id.index())).fold(0.0, f32::max)
-            }
-        };
-        let bounds = self.stand.bounds(self.emitter.bounds());
-        if self.falloff == Falloff::None || !bounds.is_finite() {
-            return Reach::Far(radiance);
-        }
-        let (normals, area) = match &self.shortcut {
-            Some(Shortcut::Flat(flat) | Shortcut::Rectangle(flat, _)) => {
-                (Cone { axis: flat.normal, angle: 0.0 }, flat.area)
-            }
-            // A convex body shows a quarter of its area from any side, in the mean.
-            Some(Shortcut::Sphere(..)) | None => (Cone::ALL, 0.25 * self.mean_area()),
-        };
-        let (intensity, two_sided) = (area * radiance, self.two_sided);
-        Reach::Near(Cluster { bounds, intensity, normals, spread: FRAC_PI_2, two_sided })
-    }
-
-    /// Area in world space, as if the map stretched all directions alike.
-    fn mean_area(&self) -> f32 {
+    /// What a choice among lights has to know of each piece.
+    pub(in super::super) fn reaches(&self) -> Vec<Reach> {
+        let still = self.stand.still();
         let determinant = self.stand.now(0.0).map_or(0.0, |place| place.matrix().matrix3.determinant().abs());
-        (self.emitter.area() * determinant.cbrt().powi(2)) as f32
+        // As if the map stretched all directions alike.
+        let stretch = determinant.cbrt().powi(2);
+        let reach = |piece: EmitterPiece| {
+            let bounds = self.stand.bounds(piece.bounds);
+            let brightness = (stretch * piece.brightness) as f32;
+            if self.falloff == Falloff::None || !bounds.is_finite() {
+                return Reach::Far(brightness);
+            }
+            let normals = still.as_ref().map_or(Cone::ALL, |place| piece.normals.placed(place));
+            // A convex body shows a quarter of its area from any side, in the mean.
+            let shown = if normals.angle < FRAC_PI_2 { 1.0 } else { 0.25 };
+            let (intensity, two_sided) = (shown * brightness, self.two_sided);
+            Reach::Near(Cluster { bounds, intensity, normals, spread: FRAC_PI_2, two_sided })
+        };
+        self.emitter.pieces(&self.glow).into_iter().map(reach).collect()
     }
 }
 

@@ -2,13 +2,12 @@
 
 mod met;
 
-use super::emitter::{Emitter, EmitterSample};
+use super::emitter::{Emitter, EmitterSample, Glow};
 use super::flat::WorldFlat;
+use super::lamps::Lamps;
 use super::spherical_rectangle::WorldRectangle;
 use super::{LightSample, Target, Use};
 use crate::lanes::{LANES, Lanes, Vec3Lanes};
-use crate::material_eval::MaterialEval;
-use crate::texture_eval::TexturePoint;
 use crate::world::{Chain, Hull, Lamp, Now, Place};
 use crate::world_sphere::WorldSphere;
 use glam::{Vec2, Vec3};
@@ -16,14 +15,14 @@ use heliostat_geometry::shape::Sphere;
 use heliostat_geometry::{Aabb, Shape, SurfacePoint, Transform};
 use heliostat_scene::light::{Falloff, LightKind};
 use heliostat_scene::object::Geometry;
-use heliostat_scene::{Light, Object, Rgb, Scene};
+use heliostat_scene::{Light, Object, Rgb};
 
 /// A surface that shines.
 #[derive(Debug)]
 pub(super) struct AreaLight<'s> {
     emitter: Emitter<'s>,
     stand: Stand<'s>,
-    radiance: Radiance<'s>,
+    glow: Glow<'s>,
     falloff: Falloff,
     two_sided: bool,
     shortcut: Option<Shortcut<'s>>,
@@ -51,6 +50,15 @@ impl Stand<'_> {
         }
     }
 
+    /// The place of what stands still.
+    fn still(&self) -> Option<Transform> {
+        match self {
+            Self::Place(Place::Still(transform)) => Some(**transform),
+            Self::Place(_) => None,
+            Self::Chain(chain) => chain.still().copied(),
+        }
+    }
+
     /// The box in world space of what has the box `local`, over the shutter.
     fn bounds(&self, local: Aabb) -> Aabb {
         match self {
@@ -70,15 +78,6 @@ impl Stand<'_> {
             }
         }
     }
-}
-
-/// What the surface gives off.
-#[derive(Debug)]
-enum Radiance<'s> {
-    /// The same everywhere.
-    Constant(Rgb),
-    /// The emission of the object's materials.
-    Object(&'s Scene, &'s Object),
 }
 
 /// Surfaces whose points are found without looking at the emitter.
@@ -132,24 +131,19 @@ impl FlatLamp<'_> {
 
 impl<'s> AreaLight<'s> {
     /// An area light of the scene; `None` when its surface has no finite area above 0.
-    pub(super) fn of_light(scene: &'s Scene, light: &'s Light, used: Use) -> Option<Self> {
+    pub(super) fn of_light(stock: &mut Lamps<'s>, light: &'s Light) -> Option<Self> {
         let LightKind::Area { geometry, transform, two_sided, falloff, visible } = &light.kind else {
             return None;
         };
         let falls_off = *falloff == Falloff::InverseSquare;
-        let flat = match geometry {
-            Geometry::Shape(shape) => WorldFlat::new(shape, transform),
-            Geometry::Mesh(_) | Geometry::Group(_) => None,
-        };
-        let flat = flat.map(|flat| match flat.rectangle() {
-            Some(rectangle) if used == Use::Paths && falls_off => Shortcut::Rectangle(flat, rectangle),
-            _ => Shortcut::Flat(flat),
-        });
+        let used = stock.used;
+        let flat = flat_of(geometry, transform, used == Use::Paths && falls_off);
         let sphere = || if falls_off { sphere_of(geometry, Now::Still(transform)) } else { None };
+        let glow = Glow::Even(light.intensity);
         Some(Self {
-            emitter: Emitter::new(scene, geometry, |_| true)?,
+            emitter: stock.emitter(geometry, &[], &glow, falls_off)?,
             stand: Stand::Place(Place::Still(transform)),
-            radiance: Radiance::Constant(light.intensity),
+            glow,
             falloff: *falloff,
             two_sided: *two_sided,
             shortcut: flat.or_else(sphere),
@@ -159,37 +153,39 @@ impl<'s> AreaLight<'s> {
     }
 
     /// An object with a material that shines, on both sides; `None` for all others.
-    pub(super) fn of_object(scene: &'s Scene, object: &'s Object) -> Option<Self> {
+    pub(super) fn of_object(stock: &mut Lamps<'s>, object: &'s Object) -> Option<Self> {
         let still = (!object.motion.is_moving()).then(|| Now::Still(object.motion.first()));
-        Self::shining(scene, object, Stand::Place(Place::of(&object.motion)), still)
+        Self::shining(stock, object, Stand::Place(Place::of(&object.motion)), still, object.casts_shadow)
     }
 
     /// A part of a group with a material that shines; `None` for all others.
-    pub(super) fn of_part(scene: &'s Scene, lamp: Lamp<'s>) -> Option<Self> {
+    pub(super) fn of_part(stock: &mut Lamps<'s>, lamp: Lamp<'s>) -> Option<Self> {
         let still = lamp.chain.still().map(|still| Now::Moving(*still));
-        Self::shining(scene, lamp.object, Stand::Chain(Box::new(lamp.chain)), still)
+        Self::shining(stock, lamp.object, Stand::Chain(Box::new(lamp.chain)), still, lamp.is_met)
     }
 
     /// An object that stands there, and if it does not move, at the place `still`.
     fn shining(
-        scene: &'s Scene,
+        stock: &mut Lamps<'s>,
         object: &'s Object,
         stand: Stand<'s>,
         still: Option<Now<'s>>,
+        is_met: bool,
     ) -> Option<Self> {
-        let shines = |slot: u16| {
-            let material = &scene.materials[object.material(slot).index()];
-            !material.surface.emission().is_zero()
+        let glow = Glow::of(stock.scene, object);
+        let flat = match (&still, glow, stock.used) {
+            (Some(place), Glow::Even(_), Use::Paths) => flat_of(&object.geometry, place, true),
+            _ => None,
         };
         Some(Self {
-            emitter: Emitter::new(scene, &object.geometry, shines)?,
+            emitter: stock.emitter(&object.geometry, &object.materials, &glow, true)?,
             stand,
-            radiance: Radiance::Object(scene, object),
+            glow,
             falloff: Falloff::InverseSquare,
             two_sided: true,
-            shortcut: still.and_then(|place| sphere_of(&object.geometry, place)),
+            shortcut: flat.or_else(|| still.and_then(|place| sphere_of(&object.geometry, place))),
             stops: true,
-            is_met: true,
+            is_met,
         })
     }
 
@@ -197,15 +193,15 @@ impl<'s> AreaLight<'s> {
     pub(super) fn hull(&self) -> Option<Hull> {
         let local = self.emitter.bounds();
         let shape = match &self.emitter {
-            Emitter::Shape(shape) => Some(*shape),
-            Emitter::Mesh { .. } => None,
+            Emitter::Shape(shape, _) => Some(*shape),
+            Emitter::Mesh(_) => None,
         };
         self.stand.hull(local, shape)
     }
 
-    /// The light that arrives at `p` from one point of the surface.
+    /// The light that arrives at `p` from one point of a piece of the surface.
     #[inline]
-    pub(super) fn sample(&self, p: Vec3, u: Vec2, time: f32) -> Option<LightSample> {
+    pub(super) fn sample(&self, p: Vec3, piece: usize, u: Vec2, time: f32) -> Option<LightSample> {
         let by_shortcut = match &self.shortcut {
             Some(Shortcut::Flat(flat)) => return self.sample_flat(flat, flat.point(u), p),
             Some(Shortcut::Rectangle(flat, rectangle)) => {
@@ -216,13 +212,13 @@ impl<'s> AreaLight<'s> {
             }
             None => None,
         };
-        by_shortcut.or_else(|| self.sample_by_area(p, u, time))
+        by_shortcut.or_else(|| self.sample_by_area(p, piece, u, time))
     }
 
     /// A point of a flat lamp.
     #[inline]
     fn sample_flat(&self, flat: &WorldFlat, on_light: Vec3, p: Vec3) -> Option<LightSample> {
-        let Radiance::Constant(radiance) = self.radiance else { return None };
+        let Glow::Even(radiance) = self.glow else { return None };
         let (to_light, share) = self.share(on_light - p, flat.normal, flat.area)?;
         Some(LightSample {
             to_light,
@@ -243,7 +239,7 @@ impl<'s> AreaLight<'s> {
     ) -> Option<LightSample> {
         let Some(seen) = rectangle.seen_from(p) else { return self.sample_flat(flat, flat.point(u), p) };
         let by_area = self.sample_flat(flat, seen.sample(u), p)?;
-        let Radiance::Constant(radiance) = self.radiance else { return None };
+        let Glow::Even(radiance) = self.glow else { return None };
         let (arriving, pdf) = (seen.solid_angle * radiance, self.density_of(seen.solid_angle));
         Some(LightSample { arriving, pdf, ..by_area })
     }
@@ -251,22 +247,22 @@ impl<'s> AreaLight<'s> {
     /// The lamp, where it is a flat one that stands still.
     #[inline]
     pub(super) fn flat_lamp(&self) -> Option<FlatLamp<'_>> {
-        match (&self.shortcut, &self.radiance) {
-            (Some(Shortcut::Flat(flat)), Radiance::Constant(radiance)) => {
+        match (&self.shortcut, &self.glow) {
+            (Some(Shortcut::Flat(flat)), Glow::Even(radiance)) => {
                 Some(FlatLamp { flat, radiance: *radiance, falloff: self.falloff, two_sided: self.two_sided })
             }
             _ => None,
         }
     }
 
-    /// One point of any surface, uniform by local area.
-    fn sample_by_area(&self, p: Vec3, u: Vec2, time: f32) -> Option<LightSample> {
-        let sample = self.emitter.sample(u)?;
+    /// One point of a piece of any surface, by local area and brightness.
+    fn sample_by_area(&self, p: Vec3, piece: usize, u: Vec2, time: f32) -> Option<LightSample> {
+        let sample = self.emitter.sample(piece, u)?;
         let on_light = self.stand.now(time)?.sample_to_world(&sample.point);
         let (to_light, share) = self.share(on_light.at.p - p, on_light.at.ng, on_light.pdf.recip())?;
         Some(LightSample {
             to_light,
-            arriving: share * self.radiance_at(&sample),
+            arriving: share * self.glow.radiance(sample.slot, sample.at),
             pdf: self.density_of(share),
             target: self.target(on_light.at),
         })
@@ -285,7 +281,8 @@ impl<'s> AreaLight<'s> {
         let normal = transform.matrix().matrix3.inverse().mul_vec3(seen.normal).normalize();
         let point = local.point(normal);
         let at = transform.surface_point(point.p, point.p_err, point.ng);
-        let radiance = self.radiance_at(&EmitterSample { point, slot: 0 });
+        let sample = EmitterSample::on_shape(point);
+        let radiance = self.glow.radiance(sample.slot, sample.at);
         Some(LightSample {
             to_light: seen.dir,
             arriving: seen.solid_angle * radiance,
@@ -315,18 +312,6 @@ impl<'s> AreaLight<'s> {
         (share > 0.0 && share.is_finite()).then_some((to_light, share))
     }
 
-    fn radiance_at(&self, sample: &EmitterSample) -> Rgb {
-        match self.radiance {
-            Radiance::Constant(radiance) => radiance,
-            Radiance::Object(scene, object) => {
-                let material = &scene.materials[object.material(sample.slot).index()];
-                let at = TexturePoint::plain(sample.point.uv, sample.point.p.as_vec3());
-                let eval = MaterialEval { textures: &scene.textures, at };
-                eval.opacity(material) * eval.color(&material.surface.emission())
-            }
-        }
-    }
-
     fn target(&self, at: SurfacePoint) -> Target {
         if self.stops { Target::Surface(at) } else { Target::Point(at.p) }
     }
@@ -336,6 +321,16 @@ impl<'s> AreaLight<'s> {
     fn density_of(&self, solid_angle: f32) -> f32 {
         if self.is_met { solid_angle.recip() } else { f32::INFINITY }
     }
+}
+
+/// The shortcut for a flat lamp; a rectangle is seen by solid angle if `by_angle`.
+fn flat_of<'s>(geometry: &Geometry, transform: &Transform, by_angle: bool) -> Option<Shortcut<'s>> {
+    let Geometry::Shape(shape) = geometry else { return None };
+    let flat = WorldFlat::new(shape, transform)?;
+    Some(match flat.rectangle().filter(|_| by_angle) {
+        Some(rectangle) => Shortcut::Rectangle(flat, rectangle),
+        None => Shortcut::Flat(flat),
+    })
 }
 
 /// The shortcut for a geometry that is a sphere in world space.

@@ -14,6 +14,8 @@ pub(crate) struct Lamp<'s> {
     pub(crate) owner: (u32, u64),
     /// The object with the material.
     pub(crate) object: &'s Object,
+    /// Whether it, and every group around it, casts shadows: only then scattered rays meet it.
+    pub(crate) is_met: bool,
     /// Where it stands.
     pub(crate) chain: Chain<'s>,
 }
@@ -34,13 +36,20 @@ enum Link<'s> {
 }
 
 impl<'s> PreparedGroup<'s> {
-    /// Visits every part that may shine, where the group is a solid that stands at `place`, in the order of parts.
-    pub(crate) fn each_lamp(&self, solid: u32, place: Place<'s>, visit: &mut dyn FnMut(Lamp<'s>)) {
-        self.lamps_below((solid, 0), &mut vec![Link::Place(place)], visit);
+    /// Visits every part that may shine, where the group is a solid placed by `object`, in the order of parts.
+    pub(crate) fn each_lamp(&self, solid: u32, object: &'s Object, visit: &mut dyn FnMut(Lamp<'s>)) {
+        let links = &mut vec![Link::Place(Place::of(&object.motion))];
+        self.lamps_below((solid, 0), object.casts_shadow, links, visit);
     }
 
     /// `owner` holds the number of the first part.
-    fn lamps_below(&self, owner: (u32, u64), links: &mut Vec<Link<'s>>, visit: &mut dyn FnMut(Lamp<'s>)) {
+    fn lamps_below(
+        &self,
+        owner: (u32, u64),
+        is_met: bool,
+        links: &mut Vec<Link<'s>>,
+        visit: &mut dyn FnMut(Lamp<'s>),
+    ) {
         let shining = || self.members.iter().filter(|member| member.lamps > 0);
         if shining().next().is_none() {
             return;
@@ -48,11 +57,12 @@ impl<'s> PreparedGroup<'s> {
         for (i, copy) in (0..).zip(&self.group.places) {
             for member in shining() {
                 let owner = (owner.0, owner.1 + i * self.parts + member.first);
+                let is_met = is_met && member.object.casts_shadow;
                 links.extend([Link::Copy(copy), Link::Place(member.place)]);
                 match &member.content {
-                    Content::Group(group) => group.lamps_below(owner, links, visit),
+                    Content::Group(group) => group.lamps_below(owner, is_met, links, visit),
                     Content::Body(_) => {
-                        visit(Lamp { owner, object: member.object, chain: Chain::new(links) });
+                        visit(Lamp { owner, object: member.object, is_met, chain: Chain::new(links) });
                     }
                 }
                 links.truncate(links.len() - 2);

@@ -6,6 +6,7 @@ use super::super::solid::Content;
 use super::super::thing::{Met, Standing, Thing};
 use super::boxes::add;
 use super::{Member, PreparedGroup};
+use crate::world::Eye;
 use heliostat_geometry::{Ray, Transform};
 use heliostat_index::TraversalCost;
 use std::cell::Cell;
@@ -18,8 +19,8 @@ pub(in super::super) struct Look<'q> {
     pub(in super::super) solid: u32,
     /// Over the shutter.
     pub(in super::super) time: f32,
-    /// Whether invisible objects are left out.
-    pub(in super::super) camera: bool,
+    /// Who looks.
+    pub(in super::super) eye: Eye,
     /// Where the work on all levels is added up.
     pub(in super::super) cost: Option<&'q Cell<TraversalCost>>,
 }
@@ -123,7 +124,7 @@ impl<'s> PreparedGroup<'s> {
 impl<'s> Member<'s> {
     /// See [`PreparedGroup::closest`]; `place` and `first` are those of the copy that it lies in.
     fn closest(&self, look: &Look<'_>, search: &Ray, place: &Transform, first: u64) -> Option<(f32, Met)> {
-        if look.camera && !self.object.visible {
+        if !look.eye.sees(self.object) {
             return None;
         }
         let part = first + self.first;
