@@ -86,11 +86,11 @@ pub(crate) struct PictureArgs {
     pub(crate) samples: Option<u32>,
 
     /// Error of a pixel relative to its brightness, as 0.01, at which it has enough samples
-    #[arg(long, value_name = "X", value_parser = value::positive)]
+    #[arg(long, value_name = "X", value_parser = value::positive, allow_hyphen_values = true)]
     pub(crate) noise: Option<f32>,
 
     /// Time after which each frame ends with the pass that it is in: 90, 90s, 5m or 2h; takes as many samples as fit into it
-    #[arg(long, value_name = "TIME", value_parser = value::duration)]
+    #[arg(long, value_name = "TIME", value_parser = value::duration, allow_hyphen_values = true)]
     pub(crate) time: Option<f64>,
 
     /// The most camera rays per pixel where noise or time is set [default: the scene's, else 16384]

@@ -124,3 +124,81 @@ fn the_same_place_gives_the_same_numbers_and_others_differ() {
         assert!(others[..i].iter().all(|b| all(*a) != all(*b)));
     }
 }
+
+fn blue(is_chequered: bool, seed: u64) -> Pattern {
+    Pattern { seed, kind: SamplerKind::Blue, is_chequered }
+}
+
+/// The third draw of a branch.
+fn draw(pattern: &Pattern, pixel: [u32; 2], sample: u32) -> Vec2 {
+    let mut sampler = pattern.sampler(pixel, sample).fork(3).fork(1);
+    (0..3).map(|_| sampler.next_2d()).last().unwrap()
+}
+
+#[test]
+fn squares_of_pixels_are_nets_together_at_every_power_of_two() {
+    for (corner, seed) in [([0, 0], 0), ([8, 16], 1), ([1912, 1072], 2), ([65_528, 65_528], 3)] {
+        for side in [1, 2, 4, 8] {
+            for samples in [1, 2, 4, 8, 16] {
+                let pixels = (0..side * side).map(|i| [corner[0] + i % side, corner[1] + i / side]);
+                let points = pixels.flat_map(|p| (0..samples).map(move |s| draw(&blue(false, seed), p, s)));
+                assert_net(&points.collect::<Vec<_>>());
+            }
+        }
+    }
+}
+
+#[test]
+fn pixels_of_one_colour_are_nets_together_where_noise_decides() {
+    // Two pixels of a colour in each of two rows: columns 0, 2 and 1, 3.
+    let pixels = [[0, 0], [2, 0], [1, 1], [3, 1]];
+    for samples in [1, 4, 16] {
+        let points = pixels.iter().flat_map(|p| (0..samples).map(|s| draw(&blue(true, 5), *p, s)));
+        assert_net(&points.collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn colours_of_the_chessboard_are_uncorrelated_where_noise_decides() {
+    let n = 4096;
+    let pair = |i: u32| (draw(&blue(true, 0), [2 * i, 0], 0), draw(&blue(true, 0), [2 * i + 1, 0], 0));
+    let sum: f64 =
+        (0..n).map(pair).map(|(a, b)| (f64::from(a.x) - 0.5) * (f64::from(b.x) - 0.5)).sum();
+    assert!((12.0 * sum / f64::from(n)).abs() < 5.0 / f64::from(n).sqrt());
+}
+
+#[test]
+fn two_draws_of_neighbours_are_uncorrelated() {
+    let n = 4096_u32;
+    // Over pictures, since within one the pixels are no independent cases.
+    let sum: f64 = (0..n)
+        .map(|seed| {
+            let mut sampler = blue(false, u64::from(seed)).sampler([seed % 64, seed / 64], seed % 16);
+            (f64::from(sampler.next_1d()) - 0.5) * (f64::from(sampler.next_1d()) - 0.5)
+        })
+        .sum();
+    assert!((12.0 * sum / f64::from(n)).abs() < 5.0 / f64::from(n).sqrt());
+}
+
+#[test]
+fn errors_of_neighbours_cancel_and_those_of_pixels_stay() {
+    // The share of a disk in the unit square, with 4 samples a pixel.
+    let truth = std::f64::consts::PI / 16.0;
+    let error = |pattern: &Pattern, pixel: [u32; 2]| {
+        let hits = (0..4).filter(|&s| draw(pattern, pixel, s).distance(Vec2::new(0.4, 0.6)) < 0.25).count();
+        hits as f64 / 4.0 - truth
+    };
+    let mean_squares = |kind| {
+        let (mut pixels, mut squares) = (0.0, 0.0);
+        for seed in 0..200 {
+            let pattern = Pattern { seed, kind, is_chequered: false };
+            let errors: Vec<f64> = (0..16).map(|i| error(&pattern, [8 + i % 4, 4 + i / 4])).collect();
+            pixels += errors.iter().map(|e| e * e).sum::<f64>() / 16.0;
+            squares += (errors.iter().sum::<f64>() / 16.0).powi(2);
+        }
+        (pixels / 200.0, squares / 200.0)
+    };
+    let (white, blue) = (mean_squares(SamplerKind::White), mean_squares(SamplerKind::Blue));
+    assert!((blue.0 / white.0 - 1.0).abs() < 0.1, "a pixel: {} against {}", blue.0, white.0);
+    assert!(blue.1 < 0.35 * white.1, "a square: {} against {}", blue.1, white.1);
+}
