@@ -62,6 +62,8 @@ enum Bench {
         #[arg(last = true)]
         flags: Vec<String>,
     },
+    /// The error against the number of samples: plots into out/convergence, slopes and efficiency as a table.
+    Convergence(bench::convergence::Flags),
     /// Against POV-Ray on the same scene, where povray is found.
     Peers {
         /// Rounds, in which both take turns.
@@ -78,6 +80,7 @@ fn main() -> ExitCode {
         Chore::Gallery { only, videos } => gallery::run(&only, videos),
         Chore::Bench(Bench::Scenes) => bench::scenes::run(),
         Chore::Bench(Bench::Index { flags }) => bench::index(&flags),
+        Chore::Bench(Bench::Convergence(flags)) => bench::convergence::run(&flags),
         Chore::Bench(Bench::Peers { rounds }) => bench::peers::run(rounds),
         Chore::Golden { names } => golden(&names),
     };

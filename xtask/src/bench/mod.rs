@@ -1,6 +1,8 @@
 //! Measurements that anyone can repeat: on the release build, medians of interleaved rounds, as Markdown tables.
 
+pub(crate) mod convergence;
 pub(crate) mod peers;
+mod plot;
 pub(crate) mod scenes;
 
 use crate::Outcome;
