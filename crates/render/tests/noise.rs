@@ -27,7 +27,11 @@ fn settings() -> RenderSettings {
 
 fn rare(sampler: &mut Sampler) -> f32 {
     // By two draws, which are not stratified together.
-    if sampler.next_1d() < 0.125 && sampler.next_1d() < 8.0 * RARE { BRIGHT } else { DIM + RARE * DIM / (1.0 - RARE) }
+    if sampler.next_1d() < 0.125 && sampler.next_1d() < 8.0 * RARE {
+        BRIGHT
+    } else {
+        DIM + RARE * DIM / (1.0 - RARE)
+    }
 }
 
 fn whole(
@@ -41,8 +45,12 @@ fn whole(
     prepared.frame(&film)
 }
 
+fn values<'f>(frame: &'f Frame, channel: &str) -> &'f [f32] {
+    &frame.channel(channel).expect("a layer that was asked for").values
+}
+
 fn mean(frame: &Frame, channel: &str) -> f64 {
-    let values = &frame.channel(channel).unwrap().values;
+    let values = values(frame, channel);
     values.iter().map(|v| f64::from(*v)).sum::<f64>() / values.len() as f64
 }
 
@@ -99,9 +107,11 @@ fn the_test_above_sees_the_bias_of_pixels_that_ask_themselves() {
 #[test]
 fn pixels_end_at_the_error_that_was_asked_for() {
     let scene = scene(perspective());
-    for (target, filter, filter_radius) in
-        [(0.05, Filter::BlackmanHarris, 1.5), (0.02, Filter::BlackmanHarris, 1.5), (0.05, Filter::Mitchell, 2.0)]
-    {
+    for (target, filter, filter_radius) in [
+        (0.05, Filter::BlackmanHarris, 1.5),
+        (0.02, Filter::BlackmanHarris, 1.5),
+        (0.05, Filter::Mitchell, 2.0),
+    ] {
         let settings = RenderSettings {
             width: 48,
             height: 48,
@@ -115,7 +125,7 @@ fn pixels_end_at_the_error_that_was_asked_for() {
         let noisy =
             |s: &mut Sampler| (0..4).map(|_| 2.0 * f32::from(u8::from(s.next_1d() < 0.5))).sum::<f32>() / 4.0;
         let frame = whole(&scene, &settings, |_, s| light(Rgb::splat(noisy(s) * 2.0 * s.next_1d())));
-        let values = &frame.channel("G").unwrap().values;
+        let values = values(&frame, "G");
         let error = values.iter().map(|v| (f64::from(*v) - 1.0).powi(2)).sum::<f64>() / values.len() as f64;
         let share = error.sqrt() / f64::from(target);
         assert!((0.3..1.15).contains(&share), "{filter:?} at {target}: {share} of the error");
@@ -130,8 +140,8 @@ fn calm_and_black_pixels_take_the_least_number() {
         let settings = RenderSettings { samples: 8, noise: Some(0.05), layers, ..settings() };
         let shade = |s: &mut Sampler| Rgb::splat(radiance + wobble * s.next_1d());
         let frame = whole(&scene, &settings, |_, s| light(shade(s)));
-        assert!(frame.channel("sample_count.Y").unwrap().values.iter().all(|n| *n == 8.0));
-        let variance = &frame.channel("variance.R").unwrap().values;
+        assert!(values(&frame, "sample_count.Y").iter().all(|n| *n == 8.0));
+        let variance = values(&frame, "variance.R");
         assert!(variance.iter().all(|v| (*v > 0.0) == (wobble > 0.0) && *v < 1e-6));
     }
 }
@@ -140,8 +150,15 @@ fn calm_and_black_pixels_take_the_least_number() {
 fn noisy_places_take_more_samples() {
     let scene = scene(perspective());
     let layers = Layers { sample_count: true, ..Layers::default() };
-    let settings =
-        RenderSettings { width: 64, height: 16, samples: 32, noise: Some(0.1), max_samples: Some(256), layers, ..settings() };
+    let settings = RenderSettings {
+        width: 64,
+        height: 16,
+        samples: 32,
+        noise: Some(0.1),
+        max_samples: Some(256),
+        layers,
+        ..settings()
+    };
     let frame = whole(&scene, &settings, |ray, s| {
         let local = formula::pose().inverse().transform_vector3(ray.ray.dir.as_dvec3());
         light(Rgb::splat(if local.x < 0.0 { 1.0 } else { rare(s) }))
@@ -153,15 +170,10 @@ fn noisy_places_take_more_samples() {
 #[test]
 fn threads_passes_and_regions_leave_no_trace() {
     let scene = scene(perspective());
-    let settings = RenderSettings {
-        width: 53,
-        height: 37,
-        noise: Some(0.12),
-        layers: Layers::ALL,
-        ..settings()
-    };
+    let settings =
+        RenderSettings { width: 53, height: 37, noise: Some(0.12), layers: Layers::ALL, ..settings() };
     let one = whole(&scene, &settings, ground);
-    let counts = &one.channel("sample_count.Y").unwrap().values;
+    let counts = values(&one, "sample_count.Y");
     assert!(counts.iter().any(|n| *n != counts[0]), "all pixels take {}", counts[0]);
     for threads in [2, 8] {
         let other = whole(&scene, &RenderSettings { threads, ..settings.clone() }, ground);

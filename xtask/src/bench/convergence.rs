@@ -98,7 +98,8 @@ impl Bench<'_> {
         for integrator in &self.flags.integrators {
             let reference = format!("{FOLDER}/reference.exr");
             let samples = self.flags.samples.saturating_mul(REFERENCE);
-            let job = Job { scene, integrator: oracle(integrator), sampler: "white", samples, seed: OTHER_SEED };
+            let job =
+                Job { scene, integrator: oracle(integrator), sampler: "white", samples, seed: OTHER_SEED };
             self.render(&job, &reference)?;
             for sampler in &self.flags.samplers {
                 let points = self.points(scene, integrator, sampler, &reference)?;
@@ -110,7 +111,13 @@ impl Bench<'_> {
     }
 
     /// The curve of an integrator with a sampler.
-    fn points(&self, scene: &str, integrator: &str, sampler: &str, reference: &str) -> Result<Vec<Point>, String> {
+    fn points(
+        &self,
+        scene: &str,
+        integrator: &str,
+        sampler: &str,
+        reference: &str,
+    ) -> Result<Vec<Point>, String> {
         let doubled = |n: &u32| n.checked_mul(2).filter(|&n| n <= self.flags.samples);
         let numbers = std::iter::successors(Some(1), doubled);
         let point = |samples| {
@@ -133,7 +140,16 @@ impl Bench<'_> {
         let stats = format!("{FOLDER}/stats.json");
         let mut command = self.heliostat.command(&["render", job.scene, "-o", path, "--exr-depth", "float"]);
         command.args(["--size", &self.flags.size, "--samples", &samples, "--seed", &seed]);
-        command.args(["--integrator", job.integrator, "--set", &sampler, "--stats", &stats, "--progress", "none"]);
+        command.args([
+            "--integrator",
+            job.integrator,
+            "--set",
+            &sampler,
+            "--stats",
+            &stats,
+            "--progress",
+            "none",
+        ]);
         // What it prints is not asked for.
         command.stdout(std::process::Stdio::null());
         execute(command)?;
@@ -214,7 +230,9 @@ fn table(series: &[Series]) -> String {
         let (n, rmse, seconds) = (last.samples, last.rmse, last.seconds);
         let (slope, efficiency) = (s.slope(), s.efficiency());
         let names = format!("{} | {} | {}", s.scene, s.integrator, s.sampler);
-        table.push_str(&format!("| {names} | {n} | {rmse:.5} | {slope:.2} | {seconds:.2} | {efficiency:.3e} |\n"));
+        table.push_str(&format!(
+            "| {names} | {n} | {rmse:.5} | {slope:.2} | {seconds:.2} | {efficiency:.3e} |\n"
+        ));
     }
     table
 }

@@ -67,7 +67,8 @@ impl Axes {
         let all = || curves.iter().flat_map(|curve| &curve.points);
         let span = |values: &mut dyn Iterator<Item = f64>| {
             let finite = values.filter(|v| v.is_finite());
-            let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+            let (low, high) =
+                finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
             // A little room above and below, and something to show where there is one value or none.
             if low < high { low - 0.1..=high + 0.1 } else { -1.0..=1.0 }
         };

@@ -163,8 +163,12 @@ mod tests {
     use super::*;
 
     fn rule(least: u32) -> Rule {
-        let settings =
-            RenderSettings { noise: Some(0.1), noise_floor: 0.5, samples: least, ..RenderSettings::default() };
+        let settings = RenderSettings {
+            noise: Some(0.1),
+            noise_floor: 0.5,
+            samples: least,
+            ..RenderSettings::default()
+        };
         Rule::new(&settings, (1.0, 0.0)).unwrap()
     }
 

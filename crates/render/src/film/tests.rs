@@ -6,9 +6,7 @@ use heliostat_scene::settings::Filter;
 
 #[test]
 fn tiles_cover_each_pixel_once() {
-    for (x0, y0, x1, y1) in
-        [(0, 0, 1, 1), (0, 0, 64, 32), (5, 17, 40, 50), (31, 0, 33, 16), (0, 0, 100, 7)]
-    {
+    for (x0, y0, x1, y1) in [(0, 0, 1, 1), (0, 0, 64, 32), (5, 17, 40, 50), (31, 0, 33, 16), (0, 0, 100, 7)] {
         let window = PixelRect { x0, y0, x1, y1 };
         let mut seen = vec![0; (window.width() * window.height()) as usize];
         for rect in tile_rects(window) {

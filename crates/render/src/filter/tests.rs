@@ -174,7 +174,8 @@ fn negative_samples_are_as_many_as_planned_and_evenly_spread() {
     for samples in [2, 3, 4, 16, 100, 1000] {
         let filter = PixelFilter::new(Filter::Lanczos, 3.0, samples);
         let (a, b) = filter.masses();
-        let signs: Vec<bool> = (0..samples).map(|s| filter.sample(&pattern(0), [0, 0], s).is_negative).collect();
+        let signs: Vec<bool> =
+            (0..samples).map(|s| filter.sample(&pattern(0), [0, 0], s).is_negative).collect();
         let count = |signs: &[bool]| signs.iter().filter(|&&s| s).count() as f64;
         let share = b / (a + b);
         assert!((count(&signs) - share * f64::from(samples)).abs() <= 1.0);

@@ -162,8 +162,7 @@ fn pixels_of_one_colour_are_nets_together_where_noise_decides() {
 fn colours_of_the_chessboard_are_uncorrelated_where_noise_decides() {
     let n = 4096;
     let pair = |i: u32| (draw(&blue(true, 0), [2 * i, 0], 0), draw(&blue(true, 0), [2 * i + 1, 0], 0));
-    let sum: f64 =
-        (0..n).map(pair).map(|(a, b)| (f64::from(a.x) - 0.5) * (f64::from(b.x) - 0.5)).sum();
+    let sum: f64 = (0..n).map(pair).map(|(a, b)| (f64::from(a.x) - 0.5) * (f64::from(b.x) - 0.5)).sum();
     assert!((12.0 * sum / f64::from(n)).abs() < 5.0 / f64::from(n).sqrt());
 }
 

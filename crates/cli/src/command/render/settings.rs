@@ -3,8 +3,8 @@
 use crate::args::{ExrDepth, Integrator, Layer, RenderArgs};
 use crate::diagnose::Failure;
 use heliostat_io::Shot;
-use heliostat_scene::frame::Depth;
 use heliostat_scene::RenderSettings;
+use heliostat_scene::frame::Depth;
 use heliostat_scene::settings::{IntegratorKind, Layers};
 
 /// The values of the scene file that flags replace before it is read: `--set`, and the size, on which the fitted camera of
@@ -57,13 +57,18 @@ pub(super) fn apply(args: &RenderArgs, shot: &mut Shot) -> Result<(), Failure> {
 fn ends(settings: &RenderSettings) -> Result<(), Failure> {
     let is_open = settings.noise.is_some() || settings.time.is_some();
     let line = match settings.max_samples {
-        Some(_) if !is_open => "--max-samples does nothing by itself; write --noise or --time with it, or --samples".into(),
+        Some(_) if !is_open => {
+            "--max-samples does nothing by itself; write --noise or --time with it, or --samples".into()
+        }
         Some(most) if most < settings.samples => {
             let samples = settings.samples;
-            format!("at least {samples} samples and at most {most}; write --max-samples {samples} or above, or fewer --samples")
+            format!(
+                "at least {samples} samples and at most {most}; write --max-samples {samples} or above, or fewer --samples"
+            )
         }
         _ if settings.noise.is_some() && !settings.integrator.is_noisy() => {
-            "noise is asked for and the integrator has none; leave --noise out, or write --integrator path".into()
+            "noise is asked for and the integrator has none; leave --noise out, or write --integrator path"
+                .into()
         }
         _ => return Ok(()),
     };
