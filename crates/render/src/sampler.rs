@@ -145,7 +145,8 @@ impl Sampler {
         let y = hash(x);
         // Squares of the picture stay squares, in another order for each draw.
         let shift = self.code.map_or([0; 2], |code| neighbours::shift(owen_scramble_rev(code, hash(y))));
-        Scramble { order, x, y, shift }
+        let own_order = self.code.map(|code| hash(code ^ hash(order)));
+        Scramble { order, own_order, x, y, shift }
     }
 }
 
@@ -211,6 +212,8 @@ impl ExactSizeIterator for Points {}
 #[derive(Clone, Copy, Debug)]
 struct Scramble {
     order: u32,
+    /// Where pixels share the order: what keeps them from sharing all of it.
+    own_order: Option<u32>,
     x: u32,
     y: u32,
     /// What is added to the digits of both coordinates, for the pixel's place among its neighbours.
@@ -222,6 +225,7 @@ impl Scramble {
     /// is a (0, k, 2)-net.
     #[inline(always)]
     fn shuffled(self, i: u32) -> u32 {
+        let i = self.own_order.map_or(i, |key| neighbours::reordered(i, key));
         owen_scramble_rev(i.reverse_bits(), self.order).reverse_bits()
     }
 

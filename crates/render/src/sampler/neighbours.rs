@@ -29,6 +29,8 @@
 //! degree: Niederreiter, "Low-Discrepancy and Low-Dispersion Sequences", J. Number Theory 30, 1988. That `L2 P` comes out:
 //! Hofer, Suzuki, "A Complete Classification of Digital (0, m, 3)-Nets and Digital (0, 2)-Sequences in Base 2", 2019.
 
+use sobol_burley::parts::{hash, owen_scramble_rev};
+
 /// The columns of `A`; bit `r` is row `r`, the row of the leading binary digit first.
 const A: [u32; 32] = [
     0x0001_0001,
@@ -129,6 +131,18 @@ pub(super) fn shift(code: u32) -> [u32; 2] {
     std::array::from_fn(|i| a[i] ^ b[i] ^ c[i] ^ d[i])
 }
 
+/// The place of index `i` in the order of one pixel: within each run from `2^k` to `2^(k + 1)` blocks of a power of two are shuffled.
+///
+/// The first `2^k` points of a pixel must be those of its neighbours, but not in the same order: else all pixels would pair the points of
+/// two draws alike, and where that pairing is a poor one, be wrong together.
+#[inline]
+pub(super) fn reordered(i: u32, key: u32) -> u32 {
+    let Some(run) = i.checked_ilog2().filter(|&run| run > 0) else { return i };
+    let within = (i << (32 - run)).reverse_bits();
+    let shuffled = owen_scramble_rev(within, key ^ hash(run)).reverse_bits() >> (32 - run);
+    1 << run | shuffled
+}
+
 /// The place of a pixel on the Z-order curve of 65536 x 65536 pixels, by the lower 16 bits of column and row, its leading binary digit lowest.
 pub(super) fn code(pixel: [u32; 2]) -> u32 {
     (spread(pixel[1]) << 1 | spread(pixel[0])).reverse_bits()
@@ -156,6 +170,20 @@ mod tests {
         assert_eq!(code([0, 1]).reverse_bits(), 2);
         assert_eq!(code([3, 2]).reverse_bits(), 0b1101);
         assert_eq!(code([0xffff, 0xffff]), u32::MAX);
+    }
+
+    #[test]
+    fn orders_differ_within_runs_alone() {
+        for key in [0, 7, 0xdead_beef] {
+            let order: Vec<u32> = (0..256).map(|i| reordered(i, key)).collect();
+            assert_eq!(order[..2], [0, 1]);
+            assert!((0..256).zip(&order).any(|(i, &place)| i != place), "{key}");
+            for run in 1..8 {
+                let mut places = order[1 << run..2 << run].to_vec();
+                places.sort_unstable();
+                assert_eq!(places, (1 << run..2 << run).collect::<Vec<_>>(), "{key}: {run}");
+            }
+        }
     }
 
     #[test]
