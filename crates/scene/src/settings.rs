@@ -46,7 +46,7 @@ pub enum IntegratorKind {
 impl IntegratorKind {
     /// Whether pictures of it have noise beside that of edges.
     pub fn is_noisy(self) -> bool {
-        matches!(self, Self::Whitted | Self::AmbientOcclusion | Self::Direct | Self::PathSimple | Self::Path)
+        self.traces_paths() || matches!(self, Self::Whitted | Self::AmbientOcclusion)
     }
 
     /// Whether it follows light as physics has it, so that surfaces and lights mean what their units say.
