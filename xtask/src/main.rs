@@ -80,6 +80,8 @@ enum Bench {
         #[arg(long, default_value_t = 3)]
         rounds: usize,
     },
+    /// The error against the number of samples: plots into out/convergence, slopes and efficiency as a table.
+    Convergence(bench::convergence::Flags),
     /// Against POV-Ray on the same scene, where povray is found.
     Peers {
         /// Rounds, in which both take turns.
@@ -98,6 +100,7 @@ fn main() -> ExitCode {
         Chore::Bench(Bench::Index { flags }) => bench::index(&flags),
         Chore::Bench(Bench::Lights { count, rounds, samples }) => bench::lights::run(count, rounds, samples),
         Chore::Bench(Bench::Growth { rounds }) => bench::growth::run(rounds),
+        Chore::Bench(Bench::Convergence(flags)) => bench::convergence::run(&flags),
         Chore::Bench(Bench::Peers { rounds }) => bench::peers::run(rounds),
         Chore::Golden { names } => golden(&names),
     };

@@ -44,6 +44,7 @@ fn work(settings: &RenderSettings) -> Result<(), RenderError> {
     if settings.samples == 0 {
         return Err(RenderError::NoSamples);
     }
+    ends(settings)?;
     let radius = settings.filter_radius;
     if !(radius > 0.0 && radius <= MAX_RADIUS) {
         return Err(RenderError::FilterRadius(radius));
@@ -51,12 +52,34 @@ fn work(settings: &RenderSettings) -> Result<(), RenderError> {
     if settings.max_depth > MAX_DEPTH {
         return Err(RenderError::TooDeep(settings.max_depth));
     }
-    let setting = |name, value, range, ok| {
-        if ok { Ok(()) } else { Err(RenderError::Setting { name, value, range }) }
-    };
     let (weight, distance) = (settings.min_weight, settings.ao_distance);
     let clamp = settings.clamp_indirect.unwrap_or(f32::INFINITY);
     setting("clamp_indirect", clamp, "above 0", clamp > 0.0)?;
     setting("min_weight", weight, "a number from 0 to 1", (0.0..=1.0).contains(&weight))?;
     setting("ao_distance", distance, "above 0", distance > 0.0)
+}
+
+/// What else than the number of samples ends a render.
+fn ends(settings: &RenderSettings) -> Result<(), RenderError> {
+    if let Some(noise) = settings.noise {
+        setting("noise", noise, "above 0", noise > 0.0 && noise.is_finite())?;
+        setting("noise_floor", settings.noise_floor, "above 0", settings.noise_floor > 0.0)?;
+        if !settings.integrator.is_noisy() {
+            return Err(RenderError::NoNoise);
+        }
+    }
+    if let Some(time) = settings.time {
+        setting("time", time as f32, "above 0", time > 0.0)?;
+    }
+    match (settings.max_samples, settings.samples) {
+        (Some(most), samples) if most < samples => Err(RenderError::MaxSamples { samples, most }),
+        (Some(_), _) if settings.noise.is_none() && settings.time.is_none() => {
+            Err(RenderError::UselessMaxSamples)
+        }
+        _ => Ok(()),
+    }
+}
+
+fn setting(name: &'static str, value: f32, range: &'static str, ok: bool) -> Result<(), RenderError> {
+    if ok { Ok(()) } else { Err(RenderError::Setting { name, value, range }) }
 }

@@ -48,6 +48,20 @@ pub enum RenderError {
     /// No samples.
     #[error("0 samples per pixel; at least 1 is needed")]
     NoSamples,
+    /// An end by noise is asked for where there is none.
+    #[error("noise is asked for and the integrator has none; leave it out, or choose `path`")]
+    NoNoise,
+    /// More samples are asked for than may be taken.
+    #[error("samples is {samples} and max_samples {most}; max_samples must not be less")]
+    MaxSamples {
+        /// The least number.
+        samples: u32,
+        /// The most.
+        most: u32,
+    },
+    /// The most samples are set where nothing asks for more than the least.
+    #[error("max_samples does nothing without noise or time; set one of them, or samples")]
+    UselessMaxSamples,
     /// The radius of the filter is out of range.
     #[error("the filter radius is {0} pixels; it must be above 0 and at most {MAX_RADIUS}")]
     FilterRadius(f32),

@@ -3,13 +3,19 @@
 //! A tile owns its pixels, so that tiles are filled in parallel without locks. Within a pixel samples are added in the order of
 //! their index; tiles, threads and the cutting of a render into passes leave no trace in the sums.
 
+mod batches;
+pub(crate) mod stopping;
+mod tile;
+
+pub(crate) use tile::Tile;
+
 use crate::filter::PixelFilter;
 use crate::integrator::FirstHit;
 use glam::{Vec2, Vec3};
 use heliostat_scene::Rgb;
 use heliostat_scene::settings::PixelRect;
-use rayon::iter::{IntoParallelIterator, ParallelIterator};
-use std::ops::Range;
+use rayon::iter::{IntoParallelIterator, IntoParallelRefIterator, ParallelIterator};
+use stopping::{Measure, Rule};
 
 /// Side of a tile in pixels.
 const TILE: u32 = 16;
@@ -36,36 +42,10 @@ pub(crate) struct Keep {
     pub(crate) albedo: bool,
     /// The sample nearest to the centre of each pixel.
     pub(crate) nearest: bool,
-}
-
-/// A few thousand pixels of a film.
-#[derive(Clone, Debug)]
-pub(crate) struct Tile {
-    pub(crate) rect: PixelRect,
-    /// Sample that follows the last one held; samples are added in rising order.
-    next_sample: u32,
-    /// Samples that each pixel has taken.
-    samples: u32,
-    positive: Stratum,
-    /// Empty where the filter is nowhere negative.
-    negative: Stratum,
-    /// Empty unless asked for.
-    nearest: Vec<Nearest>,
-}
-
-/// Sums of one sign of the filter.
-#[derive(Clone, Debug, Default)]
-struct Stratum {
-    sums: Vec<Sum>,
-    /// Empty unless asked for.
-    albedo: Vec<[f64; 3]>,
-}
-
-/// Sum of radiance and alpha, and the number of samples in it.
-#[derive(Clone, Copy, Debug, Default)]
-struct Sum {
-    rgba: [f64; 4],
-    count: u32,
+    /// The spread of the samples.
+    pub(crate) batches: bool,
+    /// Which pixels have enough samples; needs `batches`.
+    pub(crate) blocks: bool,
 }
 
 /// The sample nearest to the centre of its pixel, in as few bytes as there are pixels many.
@@ -146,10 +126,7 @@ impl Film {
 
     /// Bytes that a film of `pixels` pixels takes, the tiles' own bookkeeping aside.
     pub(crate) fn bytes(pixels: u64, keep: Keep) -> u64 {
-        let stratum = size_of::<Sum>() + if keep.albedo { size_of::<[f64; 3]>() } else { 0 };
-        let strata = if keep.lobes { 2 } else { 1 };
-        let nearest = if keep.nearest { size_of::<Nearest>() } else { 0 };
-        pixels * (strata * stratum + nearest) as u64
+        pixels * Tile::bytes(keep) as u64
     }
 
     /// The pixels it holds, in the whole picture.
@@ -157,10 +134,54 @@ impl Film {
         self.window
     }
 
-    /// The fewest and the most samples that a pixel has taken; they differ after a cancelled pass.
+    /// The fewest and the most samples that a pixel has in the picture; they differ after a cancelled pass, and where pixels end
+    /// at a given noise.
     pub fn samples(&self) -> (u32, u32) {
-        let samples = || self.tiles.iter().map(|tile| tile.samples);
-        (samples().min().unwrap_or(0), samples().max().unwrap_or(0))
+        let pixels = |tile: &Tile| (0..tile.pixels()).map(|i| tile.used(i)).fold((u32::MAX, 0), widen);
+        let range = self.tiles.iter().map(pixels).fold((u32::MAX, 0), |(a, b), (c, d)| (a.min(c), b.max(d)));
+        (range.0.min(range.1), range.1)
+    }
+
+    /// Samples of a pixel in the picture, on average.
+    pub fn mean_samples(&self) -> f64 {
+        let (mut sum, mut pixels) = (0_u64, 0_u64);
+        for tile in &self.tiles {
+            sum += (0..tile.pixels()).map(|i| u64::from(tile.used(i))).sum::<u64>();
+            pixels += tile.pixels() as u64;
+        }
+        sum as f64 / pixels.max(1) as f64
+    }
+
+    /// Pixels of its window.
+    pub(crate) fn pixels(&self) -> u64 {
+        u64::from(self.window.width()) * u64::from(self.window.height())
+    }
+
+    /// Pixels of the tiles that want more samples.
+    pub fn open_pixels(&self) -> u64 {
+        self.tiles.iter().filter(|tile| !tile.is_settled()).map(|tile| tile.pixels() as u64).sum()
+    }
+
+    /// Whether no pixel wants any more samples: each has reached the noise that was asked for.
+    pub fn is_settled(&self) -> bool {
+        self.tiles.iter().all(Tile::is_settled)
+    }
+
+    /// The error of a pixel relative to its brightness, as the root of the mean of the squares over all pixels; `None` where it is not
+    /// known, because nobody has asked for noise or variance, or because there are too few samples.
+    pub(crate) fn error(&self, measure: &Measure) -> Option<f64> {
+        let tile = |tile: &Tile| (0..tile.pixels()).map(|i| tile.error(i, measure)).sum::<Option<f64>>();
+        // In the order of the tiles, so that the sum does not depend on threads.
+        let tiles: Vec<_> = self.tiles.par_iter().map(tile).collect();
+        let pixels: usize = self.tiles.iter().map(Tile::pixels).sum();
+        let sum = tiles.into_iter().sum::<Option<f64>>()?;
+        Some((sum / pixels.max(1) as f64).sqrt())
+    }
+
+    /// The samples that all pixels will have taken when they have reached the noise of `rule`, or `most` samples.
+    pub(crate) fn forecast(&self, rule: &Rule, most: u32) -> f64 {
+        let tiles: Vec<_> = self.tiles.par_iter().map(|tile| tile.forecast(rule, most)).collect();
+        tiles.into_iter().sum()
     }
 
     /// What it keeps beside one sum of colour.
@@ -182,90 +203,8 @@ impl Film {
     }
 }
 
-impl Tile {
-    fn new(rect: PixelRect, keep: Keep) -> Self {
-        let pixels = rect.width() as usize * rect.height() as usize;
-        let stratum = || Stratum {
-            sums: vec![Sum::default(); pixels],
-            albedo: if keep.albedo { vec![[0.0; 3]; pixels] } else { Vec::new() },
-        };
-        Self {
-            rect,
-            next_sample: 0,
-            samples: 0,
-            positive: stratum(),
-            negative: if keep.lobes { stratum() } else { Stratum::default() },
-            nearest: if keep.nearest { vec![Nearest::NONE; pixels] } else { Vec::new() },
-        }
-    }
-
-    /// Whether layers need more of a sample than its colour.
-    pub(crate) fn keeps_hits(&self) -> bool {
-        !self.nearest.is_empty() || !self.positive.albedo.is_empty()
-    }
-
-    /// The next samples of a pass that this tile does not hold yet, at most `most`; they count as held from now on.
-    pub(crate) fn claim(&mut self, samples: &Range<u32>, most: u32) -> Range<u32> {
-        let start = samples.start.max(self.next_sample);
-        let new = start..samples.end.min(start.saturating_add(most));
-        if !new.is_empty() {
-            self.samples += new.end - new.start;
-            self.next_sample = new.end;
-        }
-        new
-    }
-
-    /// Adds a sample to pixel `i` of the tile; samples come in rising order.
-    pub(crate) fn add(&mut self, i: usize, shot: &Shot) {
-        let stratum = if shot.is_negative { &mut self.negative } else { &mut self.positive };
-        let sum = &mut stratum.sums[i];
-        let rgba = shot.radiance.extend(shot.alpha).as_dvec4().to_array();
-        (0..4).for_each(|c| sum.rgba[c] += rgba[c]);
-        sum.count += 1;
-        if let (Some(sum), Some(hit)) = (stratum.albedo.get_mut(i), &shot.hit) {
-            let albedo = hit.albedo.as_dvec3().to_array();
-            (0..3).for_each(|c| sum[c] += albedo[c]);
-        }
-        // Ties go to the sample that came first.
-        if let Some(nearest) = self.nearest.get_mut(i).filter(|nearest| shot.distance < nearest.distance) {
-            *nearest = Nearest::of(shot);
-        }
-    }
-
-    /// Red, green, blue and alpha of pixel `i`; zero where no sample is.
-    pub(crate) fn rgba(&self, i: usize, masses: (f64, f64)) -> [f32; 4] {
-        self.combine(i, masses, |stratum| stratum.sums[i].rgba)
-    }
-
-    /// Albedo of pixel `i`; zero where none was kept.
-    pub(crate) fn albedo(&self, i: usize, masses: (f64, f64)) -> [f32; 3] {
-        self.combine(i, masses, |stratum| stratum.albedo.get(i).copied().unwrap_or_default())
-    }
-
-    /// The sample nearest to the centre of pixel `i`.
-    pub(crate) fn nearest(&self, i: usize) -> Nearest {
-        self.nearest.get(i).copied().unwrap_or(Nearest::NONE)
-    }
-
-    /// The two strata of a pixel, each averaged and weighed by its part of the filter.
-    ///
-    /// While one of them has no sample, early in a render, the other stands for the pixel.
-    fn combine<const N: usize>(
-        &self,
-        i: usize,
-        (a, b): (f64, f64),
-        sum: impl Fn(&Stratum) -> [f64; N],
-    ) -> [f32; N] {
-        let mean = |stratum: &Stratum| {
-            let count = stratum.sums.get(i).map_or(0, |sum| sum.count);
-            (count > 0).then(|| sum(stratum).map(|v| v / f64::from(count)))
-        };
-        match (mean(&self.positive), mean(&self.negative)) {
-            (Some(p), Some(n)) => std::array::from_fn(|c| (a * p[c] - b * n[c]) as f32),
-            (Some(only), None) | (None, Some(only)) => only.map(|v| v as f32),
-            (None, None) => [0.0; N],
-        }
-    }
+fn widen((least, most): (u32, u32), samples: u32) -> (u32, u32) {
+    (least.min(samples), most.max(samples))
 }
 
 /// The tiles of a window, row by row; borders lie on multiples of the tile size in the whole picture.
@@ -282,77 +221,4 @@ fn tile_rects(window: PixelRect) -> impl Iterator<Item = PixelRect> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use heliostat_scene::settings::Filter;
-
-    #[test]
-    fn tiles_cover_each_pixel_once() {
-        for (x0, y0, x1, y1) in
-            [(0, 0, 1, 1), (0, 0, 64, 32), (5, 17, 40, 50), (31, 0, 33, 16), (0, 0, 100, 7)]
-        {
-            let window = PixelRect { x0, y0, x1, y1 };
-            let mut seen = vec![0; (window.width() * window.height()) as usize];
-            for rect in tile_rects(window) {
-                assert!(rect.width() <= TILE && rect.height() <= TILE);
-                for (x, y) in (rect.y0..rect.y1).flat_map(|y| (rect.x0..rect.x1).map(move |x| (x, y))) {
-                    seen[((y - y0) * window.width() + x - x0) as usize] += 1;
-                }
-            }
-            assert!(seen.iter().all(|&n| n == 1), "{window:?}");
-        }
-    }
-
-    fn shot(value: f32, is_negative: bool, distance: f32) -> Shot {
-        Shot { radiance: Rgb::splat(value), alpha: 1.0, depth: value, hit: None, is_negative, distance }
-    }
-
-    fn film(filter: Filter, radius: f32) -> Film {
-        let filter = PixelFilter::new(filter, radius, 16);
-        let keep = Keep { lobes: filter.has_negative_lobes(), albedo: false, nearest: true };
-        Film::new(PixelRect { x0: 0, y0: 0, x1: 1, y1: 1 }, &filter, keep)
-    }
-
-    #[test]
-    fn strata_are_averaged_apart() {
-        let mut film = film(Filter::Lanczos, 3.0);
-        let (a, b) = film.masses();
-        for (value, is_negative) in [(1.0, false), (3.0, false), (0.5, true)] {
-            film.tiles_mut()[0].add(0, &shot(value, is_negative, 0.0));
-        }
-        let rgba = film.tiles()[0].rgba(0, film.masses());
-        let want = (2.0 * a - 0.5 * b) as f32;
-        assert_eq!(rgba, [want, want, want, (a - b) as f32]);
-    }
-
-    #[test]
-    fn a_pixel_with_one_stratum_or_none_is_still_a_mean() {
-        let mut film = film(Filter::Lanczos, 3.0);
-        assert_eq!(film.tiles()[0].rgba(0, film.masses()), [0.0; 4]);
-        film.tiles_mut()[0].add(0, &shot(0.25, true, 0.0));
-        assert_eq!(film.tiles()[0].rgba(0, film.masses()), [0.25, 0.25, 0.25, 1.0]);
-    }
-
-    #[test]
-    fn the_sample_nearest_to_the_centre_wins_and_the_first_of_equals() {
-        let mut film = film(Filter::Box, 0.5);
-        for (depth, distance) in [(1.0, 0.5), (2.0, 0.25), (3.0, 0.25), (4.0, 0.3)] {
-            film.tiles_mut()[0].add(0, &shot(depth, false, distance));
-        }
-        assert_eq!(film.tiles()[0].nearest(0).depth, 2.0);
-    }
-
-    #[test]
-    fn samples_are_claimed_once() {
-        let mut film = film(Filter::Box, 0.5);
-        let tile = &mut film.tiles_mut()[0];
-        assert_eq!(tile.claim(&(0..4), 16), 0..4);
-        assert!(tile.claim(&(0..4), 16).is_empty());
-        assert_eq!(tile.claim(&(2..6), 16), 4..6);
-        assert!(tile.claim(&(0..3), 16).is_empty());
-        assert_eq!(tile.claim(&(10..14), 3), 10..13);
-        assert_eq!(tile.claim(&(10..14), 3), 13..14);
-        assert_eq!(tile.claim(&(u32::MAX - 1..u32::MAX), 3), u32::MAX - 1..u32::MAX);
-        assert_eq!(film.samples(), (11, 11));
-    }
-}
+mod tests;

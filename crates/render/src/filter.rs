@@ -1,7 +1,7 @@
 //! Reconstruction filters by importance sampling: where in the picture a sample of a pixel lies, and what it weighs.
 //!
-//! Every pixel takes its own samples, distributed like the filter around its centre, and averages them. Neighbours
-//! share nothing, so a pixel is the same in a tile, a region and the whole picture, and its noise is white.
+//! Every pixel takes its own samples, distributed like the filter around its centre, and averages them. No
+//! sample serves two pixels, so a pixel is the same in a tile, a region and the whole picture, and noise is not smeared.
 //!
 //! # Negative lobes
 //!
@@ -26,7 +26,7 @@
 //! Computer Graphics", SIGGRAPH 1988; Harris, "On the Use of Windows for Harmonic Analysis", Proc. IEEE 1978 (the
 //! minimum four-term window); Duchon, "Lanczos Filtering in One and Two Dimensions", J. Appl. Meteorology 1979.
 
-use crate::sampler::{Sampler, branch};
+use crate::sampler::{Pattern, branch};
 use glam::{DVec2, Vec2};
 use heliostat_scene::settings::Filter;
 use std::f64::consts::PI;
@@ -134,7 +134,7 @@ impl PixelFilter {
     }
 
     /// Where sample `sample` of the pixel at column `pixel[0]`, row `pixel[1]` lies.
-    pub fn sample(&self, seed: u64, pixel: [u32; 2], sample: u32) -> FilmSample {
+    pub fn sample(&self, pattern: &Pattern, pixel: [u32; 2], sample: u32) -> FilmSample {
         if self.samples <= 1 {
             return FilmSample { offset: DVec2::ZERO, is_negative: false };
         }
@@ -142,7 +142,7 @@ impl PixelFilter {
         let (before, is_negative) = self.negatives_before(sample);
         let (index, stratum) =
             if is_negative { (before, branch::NEGATIVE) } else { (sample - before, branch::POSITIVE) };
-        let u = Sampler::new(seed, pixel, index).fork(stratum).next_2d();
+        let u = pattern.sampler(pixel, index).fork(stratum).next_2d();
         FilmSample { offset: self.place(u, is_negative), is_negative }
     }
 

@@ -4,6 +4,8 @@
 //! |---|---|---|
 //! | `R G B A` | radiance, premultiplied, and coverage; filtered | half |
 //! | `albedo.R albedo.G albedo.B` | share of light that the first surface sends on; filtered like the beauty | half |
+//! | `sample_count.Y` | samples of the pixel | float |
+//! | `variance.R variance.G variance.B` | estimated variance of the pixel's value, from the spread of batches of its samples; before any blur, and 0 where fewer than two batches are there | float |
 //! | `Z` | depth, see `heliostat/depthType`; 1e10 on a miss | float |
 //! | `N.X N.Y N.Z` | shading normal in world space, 0 on a miss | float |
 //! | `P.X P.Y P.Z` | position in world space, 0 on a miss | float |
@@ -11,7 +13,7 @@
 //! | `object_id.Y` | index of the object + 1, 0 on a miss and on the surface of a light | float |
 //! | `material_id.Y` | index of the material + 1, 0 likewise | float |
 //!
-//! All below the line of the halves are data: one sample each, the one nearest to the centre of the pixel, never mixed
+//! From `Z` on all are data: one sample each, the one nearest to the centre of the pixel, never mixed
 //! and not premultiplied. (A mean of two ids, or of a depth and 1e10, is nothing.)
 
 use crate::film::{Film, Nearest, Tile};
@@ -84,6 +86,16 @@ pub(crate) fn extra(film: &Film, window: PixelRect, layers: &Layers) -> Vec<Chan
         let names = ["albedo.R", "albedo.G", "albedo.B"];
         channels.extend((0..3).map(|c| albedo.channel(names[c], Depth::Half, |pixel| pixel[c])));
     }
+    if layers.sample_count {
+        let count = Raster::of_film(film, 0, Tile::sample_count).crop(window);
+        channels.push(count.channel("sample_count.Y", Depth::Float, |&count| count as f32));
+    }
+    if layers.variance {
+        let of = |tile: &Tile, i| tile.variance(i, film.masses()).unwrap_or_default();
+        let variance = Raster::of_film(film, [0.0; 3], of).crop(window);
+        let names = ["variance.R", "variance.G", "variance.B"];
+        channels.extend((0..3).map(|c| variance.channel(names[c], Depth::Float, |v| v[c] as f32)));
+    }
     if keeps_nearest(layers) {
         let nearest = Raster::of_film(film, Nearest::NONE, |tile, i| tile.nearest(i)).crop(window);
         let wanted = data_channels().into_iter().filter(|channel| (channel.wanted)(layers));
@@ -100,7 +112,8 @@ pub(crate) fn keeps_nearest(layers: &Layers) -> bool {
 /// How many channels a frame with these layers has.
 pub(crate) fn channel_count(layers: &Layers) -> usize {
     let data = data_channels().iter().filter(|channel| (channel.wanted)(layers)).count();
-    4 + data + if layers.albedo { 3 } else { 0 }
+    let sets = [(layers.albedo, 3), (layers.sample_count, 1), (layers.variance, 3)];
+    4 + data + sets.iter().filter(|(wanted, _)| *wanted).map(|(_, count)| count).sum::<usize>()
 }
 
 /// A channel of data: when it is wanted and what it says.

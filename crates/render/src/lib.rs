@@ -110,7 +110,8 @@ pub use world::{TreeCache, World, WorldError};
 use heliostat_scene::{Frame, RenderSettings, Scene};
 use std::sync::atomic::AtomicBool;
 
-/// Renders `scene` with all its samples.
+/// Renders `scene` with all its samples; with a noise in the settings, until all pixels are below it. Time limits belong to
+/// whoever loops over passes.
 ///
 /// # Errors
 /// When a setting or the camera is out of its range, the picture does not fit into memory, or the scene cannot be made
@@ -119,6 +120,6 @@ pub fn render(scene: &Scene, settings: &RenderSettings) -> Result<Frame, RenderE
     let prepared = Prepared::new(scene, settings)?;
     let mut film = prepared.film();
     let control = Control { cancel: &AtomicBool::new(false), on_tile: &|_| () };
-    prepared.pass(&mut film, 0..settings.samples, &control);
+    prepared.pass(&mut film, 0..settings.most_samples(), &control);
     Ok(prepared.frame(&film))
 }

@@ -15,7 +15,7 @@ use crate::camera_ray::CameraRays;
 use crate::film::Film;
 use glam::{DAffine3, DMat4, DVec3, DVec4};
 use heliostat_scene::frame::Meta;
-use heliostat_scene::settings::{DepthLimits, Filter, IntegratorKind};
+use heliostat_scene::settings::{DepthLimits, Filter, IntegratorKind, SamplerKind};
 use heliostat_scene::{Camera, RenderSettings};
 use std::collections::BTreeMap;
 
@@ -34,8 +34,12 @@ pub(crate) fn meta(
     if most != least {
         say("heliostat/samplesMost", int(most));
     }
+    if let Some(noise) = settings.noise {
+        say("heliostat/noise", Meta::Float(noise));
+    }
     // All 64 bits of the seed, which no number type of an image file holds.
     say("heliostat/seed", text(&settings.seed.to_string()));
+    say("heliostat/sampler", text(sampler_name(settings.sampler)));
     say("heliostat/integrator", text(integrator_name(settings.integrator)));
     if settings.integrator.traces_paths() {
         say_biases(settings, &mut say);
@@ -114,6 +118,14 @@ fn integrator_name(kind: IntegratorKind) -> &'static str {
         IntegratorKind::PathSimple => "path_simple",
         IntegratorKind::Path => "path",
         IntegratorKind::VolPath => "volpath",
+    }
+}
+
+/// The name that scene files use.
+fn sampler_name(kind: SamplerKind) -> &'static str {
+    match kind {
+        SamplerKind::White => "white",
+        SamplerKind::Blue => "blue",
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::camera_ray::CameraRays;
 use crate::error::RenderError;
+use crate::film::stopping::{BLOCK, Measure, Rule};
 use crate::film::{Film, Keep};
 use crate::filter::PixelFilter;
 use crate::layers::{self, Raster};
@@ -9,6 +10,13 @@ use crate::meta::meta;
 use crate::post_dof;
 use heliostat_scene::settings::PixelRect;
 use heliostat_scene::{Camera, Frame, RenderSettings};
+
+/// The samples by which a filter shares out its signs, and sees whether there is only one.
+fn planned_samples(settings: &RenderSettings) -> u32 {
+    /// Where noise or time decides, there will be at least about so many.
+    const USUAL: u32 = 16;
+    settings.samples.max(settings.most_samples().min(USUAL))
+}
 
 /// The picture to be made.
 #[derive(Debug)]
@@ -26,8 +34,8 @@ impl<'s> Plan<'s> {
         Self {
             settings: settings.clone(),
             camera,
-            rays: if settings.mip_maps { rays.with_cones(settings.samples) } else { rays },
-            filter: PixelFilter::new(settings.filter, settings.filter_radius, settings.samples),
+            rays: if settings.mip_maps { rays.with_cones(planned_samples(settings)) } else { rays },
+            filter: PixelFilter::new(settings.filter, settings.filter_radius, planned_samples(settings)),
         }
     }
 
@@ -59,6 +67,16 @@ impl<'s> Plan<'s> {
         );
     }
 
+    /// When pixels end, if noise decides.
+    pub(crate) fn rule(&self) -> Option<Rule> {
+        Rule::new(&self.settings, self.filter.masses())
+    }
+
+    /// How errors are weighed.
+    pub(crate) fn measure(&self) -> Measure {
+        Measure::new(&self.settings, self.filter.masses())
+    }
+
     /// From the film to the frame.
     pub(crate) fn resolve(&self, film: &Film) -> Frame {
         let window = self.settings.pixels();
@@ -80,11 +98,23 @@ impl<'s> Plan<'s> {
 
     /// The pixels of the frame, and around them those that a blur after rendering looks at.
     fn film_window(&self) -> PixelRect {
-        let window = self.settings.pixels();
-        if self.rays.post_focus().is_none() {
+        let margin = self.rays.post_focus().map_or(0, |_| post_dof::margin(self.settings.height));
+        let window = self.grown(self.settings.pixels(), margin);
+        if self.settings.noise.is_none() {
             return window;
         }
-        let margin = post_dof::margin(self.settings.height);
+        // Whole blocks end together, whatever part of them is asked for.
+        let up = |side: u32, most: u32| side.next_multiple_of(BLOCK).min(most);
+        PixelRect {
+            x0: window.x0 / BLOCK * BLOCK,
+            y0: window.y0 / BLOCK * BLOCK,
+            x1: up(window.x1, self.settings.width),
+            y1: up(window.y1, self.settings.height),
+        }
+    }
+
+    /// A window with so many pixels around it, as far as the picture goes.
+    fn grown(&self, window: PixelRect, margin: u32) -> PixelRect {
         PixelRect {
             x0: window.x0.saturating_sub(margin),
             y0: window.y0.saturating_sub(margin),
@@ -99,6 +129,8 @@ impl<'s> Plan<'s> {
         Keep {
             lobes: self.filter.has_negative_lobes(),
             albedo: layers.albedo,
+            batches: layers.variance || self.settings.noise.is_some() || self.settings.time.is_some(),
+            blocks: self.settings.noise.is_some(),
             nearest: layers::keeps_nearest(layers) || self.rays.post_focus().is_some(),
         }
     }

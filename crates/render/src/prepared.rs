@@ -5,6 +5,7 @@ use crate::error::RenderError;
 use crate::film::Film;
 use crate::integrator::{self, Integrator};
 use crate::plan::Plan;
+use crate::sampler::Pattern;
 use crate::schedule::{self, Control, PassOutcome, Shooter};
 use crate::stats::{RenderStats, timed};
 use crate::world::{TreeCache, World};
@@ -110,7 +111,8 @@ impl<'s> Prepared<'s> {
         self.pool.install(|| self.plan.film())
     }
 
-    /// Adds the samples of the range to every pixel that does not hold them yet.
+    /// Adds the samples of the range to every pixel that does not hold them yet, and wants more: where the settings ask for a noise,
+    /// pixels end once they are below it (see [`Film::is_settled`]), after the same samples however the passes are cut.
     ///
     /// Samples go in rising order: what lies before the last sample that a tile holds is not added to it. Ranges in
     /// a row give the same bits as one range over all of them.
@@ -124,12 +126,29 @@ impl<'s> Prepared<'s> {
             integrator: &*self.integrator,
             camera: &self.plan.rays,
             filter: &self.plan.filter,
-            seed: self.plan.settings.seed,
+            pattern: Pattern::new(&self.plan.settings),
+            rule: self.plan.rule(),
         };
         let run = || schedule::run(&shooter, film, &samples, control);
         let ((outcome, tally), seconds) = timed(|| self.pool.install(run));
         self.lock_stats().add(&tally, seconds);
         outcome
+    }
+
+    /// The error of a pixel of the film relative to its brightness, as the root of the mean of the squares over all pixels; `None`
+    /// where it is not known: neither `noise` nor the layer `variance` is asked for, or there are too few samples yet.
+    pub fn error(&self, film: &Film) -> Option<f64> {
+        self.pool.install(|| film.error(&self.plan.measure()))
+    }
+
+    /// The camera samples that the film will have taken at its end, as far as can be told now: by the noise that is asked for, or the
+    /// most samples that a pixel may take.
+    pub fn forecast(&self, film: &Film) -> f64 {
+        let most = self.plan.settings.most_samples();
+        match self.plan.rule() {
+            Some(rule) => self.pool.install(|| film.forecast(&rule, most)),
+            None => film.pixels() as f64 * f64::from(most),
+        }
     }
 
     /// The picture that the film holds now; good at any time, before, between and after passes.

@@ -2,15 +2,22 @@
 //!
 //! Each draw is one point of a two-dimensional Sobol sequence, shuffled and Owen-scrambled by a hash of everything but
 //! the sample index. So the samples of one pixel are stratified among themselves in every draw, whatever the number of
-//! samples; different draws, branches and pixels have nothing to do with each other. There is no state to seed,
+//! samples; different draws and branches have nothing to do with each other. There is no state to seed,
 //! store or share: sample 5 of a pixel is the same on every thread, in every tile, in every pass.
+//!
+//! Pixels either have nothing to do with each other, so that the error of a picture is white noise, or are stratified among each other as
+//! well, in squares of every size: then it is blue noise. The module `neighbours` says how.
 //!
 //! # Source
 //! Burley, "Practical Hash-based Owen Scrambling", JCGT 2020 (shuffled padding); Vegdahl, "Building a Better LK Hash",
 //! 2021 (the scramble, from the crate `sobol_burley`); Ahmed, "An Implementation Algorithm of 2D Sobol Sequence Fast,
 //! Elegant, and Compact", EGSR 2024 (the second dimension without a table, over the full 32 bits).
 
+mod neighbours;
+
 use glam::Vec2;
+use heliostat_scene::RenderSettings;
+use heliostat_scene::settings::SamplerKind;
 use sobol_burley::parts::{hash, owen_scramble_rev};
 
 /// Odd constant of the golden ratio: spreads consecutive integers over 64 bits.
@@ -28,11 +35,45 @@ pub(crate) mod branch {
     pub(crate) const INTEGRATOR: u32 = 3;
 }
 
+/// The random numbers of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pattern {
+    seed: u64,
+    kind: SamplerKind,
+    /// Whether pixels of the two colours of a chessboard have nothing to do with each other.
+    is_chequered: bool,
+}
+
+impl Pattern {
+    /// The numbers that settings ask for.
+    pub fn new(settings: &RenderSettings) -> Self {
+        // Where noise decides, the pixels of one colour say how many samples those of the other take.
+        Self { seed: settings.seed, kind: settings.sampler, is_chequered: settings.noise.is_some() }
+    }
+
+    /// The numbers of sample `sample` of the pixel at column `pixel[0]`, row `pixel[1]` of the whole picture.
+    #[inline]
+    pub fn sampler(&self, pixel: [u32; 2], sample: u32) -> Sampler {
+        match self.kind {
+            SamplerKind::White => Sampler::new(self.seed, pixel, sample),
+            SamplerKind::Blue if self.is_chequered => {
+                // Half of the pixels of a row, moved together.
+                let colour = (pixel[0] ^ pixel[1]) & 1;
+                Sampler::among_neighbours(self.seed, 1 + colour, [pixel[0] >> 1, pixel[1]], sample)
+            }
+            SamplerKind::Blue => Sampler::among_neighbours(self.seed, 0, pixel, sample),
+        }
+    }
+}
+
 /// The random numbers of one sample of one pixel, in one branch of its recursion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sampler {
-    /// Hash of seed, pixel and the branches on the way here; the same for all samples of the pixel.
+    /// Hash of seed, pixel and the branches on the way here; the same for all samples of the pixel, and for all pixels where they are
+    /// stratified among each other.
     key: u64,
+    /// The code of the pixel, where it is stratified among its neighbours.
+    code: Option<u32>,
     /// Index of the sample within the pixel.
     sample: u32,
     /// Draws taken so far.
@@ -40,10 +81,21 @@ pub struct Sampler {
 }
 
 impl Sampler {
-    /// The numbers of sample `sample` of the pixel at column `pixel[0]`, row `pixel[1]` of the whole picture.
+    /// The numbers of sample `sample` of the pixel at column `pixel[0]`, row `pixel[1]` of the whole picture, which has nothing to do
+    /// with other pixels.
     pub fn new(seed: u64, pixel: [u32; 2], sample: u32) -> Self {
         let place = u64::from(pixel[0]) << 32 | u64::from(pixel[1]);
-        Self { key: mix(mix(seed ^ GOLDEN) ^ place), sample, dimension: 0 }
+        Self { key: mix(mix(seed ^ GOLDEN) ^ place), code: None, sample, dimension: 0 }
+    }
+
+    /// The same for a pixel that is stratified among those of the same set.
+    fn among_neighbours(seed: u64, set: u32, pixel: [u32; 2], sample: u32) -> Self {
+        // No pixel is so far to the right: the keys are none of those above.
+        let place = u64::from(u32::MAX) << 32 | u64::from(set);
+        let code = Some(neighbours::code(pixel));
+        // Beyond the curve begins another one.
+        let beyond = u64::from(pixel[0] >> 16) << 16 | u64::from(pixel[1] >> 16);
+        Self { key: mix(mix(mix(seed ^ GOLDEN) ^ place) ^ beyond), code, sample, dimension: 0 }
     }
 
     /// Index of the sample within the pixel.
@@ -82,7 +134,7 @@ impl Sampler {
     pub fn fork(&self, branch: u32) -> Self {
         // The constant keeps forks apart from draws, which step the key by multiples of GOLDEN.
         let key = mix(self.key.rotate_left(32) ^ mix(u64::from(branch) ^ 0xd1b5_4a32_d192_ed03));
-        Self { key, sample: self.sample, dimension: 0 }
+        Self { key, dimension: 0, ..*self }
     }
 
     /// The sequence of the next draw.
@@ -90,7 +142,11 @@ impl Sampler {
         self.dimension += 1;
         let bits = mix(self.key.wrapping_add(GOLDEN.wrapping_mul(u64::from(self.dimension))));
         let (order, x) = (bits as u32, (bits >> 32) as u32);
-        Scramble { order, x, y: hash(x) }
+        let y = hash(x);
+        // Squares of the picture stay squares, in another order for each draw.
+        let shift = self.code.map_or([0; 2], |code| neighbours::shift(owen_scramble_rev(code, hash(y))));
+        let own_order = self.code.map(|code| hash(code ^ hash(order)));
+        Scramble { order, own_order, x, y, shift }
     }
 }
 
@@ -156,8 +212,12 @@ impl ExactSizeIterator for Points {}
 #[derive(Clone, Copy, Debug)]
 struct Scramble {
     order: u32,
+    /// Where pixels share the order: what keeps them from sharing all of it.
+    own_order: Option<u32>,
     x: u32,
     y: u32,
+    /// What is added to the digits of both coordinates, for the pixel's place among its neighbours.
+    shift: [u32; 2],
 }
 
 impl Scramble {
@@ -165,6 +225,7 @@ impl Scramble {
     /// is a (0, k, 2)-net.
     #[inline(always)]
     fn shuffled(self, i: u32) -> u32 {
+        let i = self.own_order.map_or(i, |key| neighbours::reordered(i, key));
         owen_scramble_rev(i.reverse_bits(), self.order).reverse_bits()
     }
 
@@ -172,8 +233,8 @@ impl Scramble {
     #[inline(always)]
     fn point(self, index: u32) -> Vec2 {
         // Scramble: the bits of a Sobol coordinate, reversed, are those of the index times a matrix.
-        let x = owen_scramble_rev(index, self.x).reverse_bits();
-        let y = owen_scramble_rev(pascal(index), self.y).reverse_bits();
+        let x = owen_scramble_rev(index ^ self.shift[0], self.x).reverse_bits();
+        let y = owen_scramble_rev(pascal(index) ^ self.shift[1], self.y).reverse_bits();
         Vec2::new(to_unit(x), to_unit(y))
     }
 }
@@ -211,129 +272,4 @@ fn mix(mut bits: u64) -> u64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Asserts that every elementary interval of volume 1 / 2^k holds exactly one of the 2^k points.
-    fn assert_net(points: &[Vec2]) {
-        let k = points.len().trailing_zeros();
-        assert_eq!(points.len(), 1 << k);
-        for columns in 0..=k {
-            let mut seen = vec![0; points.len()];
-            for p in points {
-                let x = (p.x * (1u32 << columns) as f32) as usize;
-                let y = (p.y * (1u32 << (k - columns)) as f32) as usize;
-                seen[(y << columns) + x] += 1;
-            }
-            assert!(seen.iter().all(|&n| n == 1), "2^{columns} columns of {} points: {seen:?}", points.len());
-        }
-    }
-
-    #[test]
-    fn pascal_is_the_second_sobol_dimension() {
-        for index in (0..1 << 16).step_by(7) {
-            let from_table = sobol_burley::parts::sobol_rev(u32::reverse_bits(index), 1);
-            assert_eq!(pascal(index), from_table);
-        }
-    }
-
-    #[test]
-    fn every_power_of_two_of_samples_is_a_net() {
-        for pixel in [[0, 0], [1, 0], [0, 1], [1919, 1079], [u32::MAX, 3]] {
-            for draw in 0..4 {
-                let point = |sample| {
-                    let mut sampler = Sampler::new(7, pixel, sample).fork(2).fork(0);
-                    (0..=draw).map(|_| sampler.next_2d()).last().unwrap()
-                };
-                for block in [0..1, 0..16, 16..32, 0..256] {
-                    assert_net(&block.map(point).collect::<Vec<_>>());
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn arrays_are_nets_and_so_is_their_union() {
-        let array = |sample| Sampler::new(1, [30, 40], sample).array_2d(16).collect::<Vec<_>>();
-        for sample in 0..16 {
-            assert_net(&array(sample));
-        }
-        assert_net(&(0..16).flat_map(array).collect::<Vec<_>>());
-    }
-
-    #[test]
-    fn an_array_of_one_is_a_single_draw() {
-        for sample in 0..32 {
-            let mut single = Sampler::new(1, [3, 4], sample);
-            let mut array = single;
-            assert_eq!(array.array_2d(1).collect::<Vec<_>>(), [single.next_2d()]);
-        }
-    }
-
-    #[test]
-    fn numbers_stay_inside_the_unit_square() {
-        assert_eq!(to_unit(0), 0.0);
-        assert!(to_unit(u32::MAX) < 1.0);
-    }
-
-    #[test]
-    fn draws_branches_and_pixels_are_uncorrelated() {
-        // With n independent pairs the correlation has deviation 1 / sqrt(n); 5 deviations are asked for.
-        let n = 4096;
-        type Pairs<'a> = &'a dyn Fn(u32) -> (f32, f32);
-        let correlation = |pair: Pairs<'_>| {
-            let sum: f64 = (0..n).map(pair).map(|(a, b)| (f64::from(a) - 0.5) * (f64::from(b) - 0.5)).sum();
-            12.0 * sum / f64::from(n)
-        };
-        let limit = 5.0 / f64::from(n).sqrt();
-        let at = |x, y| Sampler::new(0, [x, y], 0);
-        let pairs: [(&str, Pairs<'_>); 6] = [
-            ("neighbours in x", &|i| (at(i, 0).next_1d(), at(i + 1, 0).next_1d())),
-            ("neighbours in y", &|i| (at(0, i).next_1d(), at(0, i + 1).next_1d())),
-            ("x and y of a draw", &|i| at(i, 9).next_2d().into()),
-            ("two draws", &|i| {
-                let mut sampler = at(i, 9);
-                (sampler.next_1d(), sampler.next_1d())
-            }),
-            ("two branches", &|i| (at(i, 9).fork(0).next_1d(), at(i, 9).fork(1).next_1d())),
-            ("parent and branch", &|i| (at(i, 9).next_1d(), at(i, 9).fork(0).next_1d())),
-        ];
-        for (name, pair) in pairs {
-            let found = correlation(pair);
-            assert!(found.abs() < limit, "{name}: {found}");
-        }
-    }
-
-    #[test]
-    fn two_draws_of_the_samples_of_a_pixel_are_uncorrelated() {
-        let n = 1024;
-        let sum: f64 = (0..n)
-            .map(|sample| {
-                let mut sampler = Sampler::new(0, [5, 6], sample);
-                let (a, b) = (sampler.next_1d(), sampler.next_1d());
-                (f64::from(a) - 0.5) * (f64::from(b) - 0.5)
-            })
-            .sum();
-        assert!((12.0 * sum / f64::from(n)).abs() < 5.0 / f64::from(n).sqrt());
-    }
-
-    #[test]
-    fn the_same_place_gives_the_same_numbers_and_others_differ() {
-        let all = |mut s: Sampler| [s.next_1d(), s.next_1d(), s.array_2d(3).map(|p| p.y).sum()];
-        let base = Sampler::new(3, [10, 20], 4);
-        assert_eq!(all(base), all(Sampler::new(3, [10, 20], 4)));
-        let others = [
-            Sampler::new(4, [10, 20], 4),
-            Sampler::new(3, [20, 10], 4),
-            Sampler::new(3, [10, 20], 5),
-            base.fork(0),
-            base.fork(1),
-            base.fork(0).fork(1),
-            base.fork(1).fork(0),
-        ];
-        for (i, a) in others.iter().enumerate() {
-            assert_ne!(all(*a), all(base));
-            assert!(others[..i].iter().all(|b| all(*a) != all(*b)));
-        }
-    }
-}
+mod tests;

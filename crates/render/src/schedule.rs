@@ -5,10 +5,11 @@
 
 use crate::camera_ray::CameraRays;
 use crate::counters::RayCounters;
+use crate::film::stopping::{Rule, Use};
 use crate::film::{Film, MISS_DEPTH, Shot, Tile};
 use crate::filter::PixelFilter;
 use crate::integrator::Integrator;
-use crate::sampler::{Sampler, branch};
+use crate::sampler::{Pattern, branch};
 use crate::world::World;
 use glam::DVec2;
 use heliostat_scene::Rgb;
@@ -77,7 +78,9 @@ pub(crate) struct Shooter<'a> {
     pub(crate) integrator: &'a dyn Integrator,
     pub(crate) camera: &'a CameraRays,
     pub(crate) filter: &'a PixelFilter,
-    pub(crate) seed: u64,
+    pub(crate) pattern: Pattern,
+    /// When pixels end, if noise decides.
+    pub(crate) rule: Option<Rule>,
 }
 
 /// Adds `samples` to every pixel of the film, tiles in parallel on the threads of the current pool.
@@ -121,11 +124,18 @@ impl Shooter<'_> {
             if cancel.load(Ordering::Relaxed) {
                 return (false, tally);
             }
-            let chunk = tile.claim(samples, CHUNK);
+            if tile.is_settled() {
+                return (true, tally);
+            }
+            let look = self.rule.map_or(u32::MAX, |rule| rule.next_look(tile.samples()));
+            let chunk = tile.claim(samples, CHUNK.min(look - tile.samples()));
             if chunk.is_empty() {
                 return (true, tally);
             }
             self.fill_chunk(tile, &chunk, &mut tally);
+            if let Some(rule) = self.rule.filter(|_| tile.samples() == look) {
+                tile.look(&rule);
+            }
         }
     }
 
@@ -135,11 +145,15 @@ impl Shooter<'_> {
         let keeps_hits = tile.keeps_hits();
         let pixels = (rect.y0..rect.y1).flat_map(|y| (rect.x0..rect.x1).map(move |x| [x, y]));
         for (i, pixel) in pixels.enumerate() {
+            let purpose = tile.purpose(i);
+            if purpose == Use::None {
+                continue;
+            }
             for sample in samples.clone() {
                 let shot = self.shoot(pixel, sample, &mut tally.rays);
                 tally.samples += 1;
                 if shot.is_finite() {
-                    tile.add(i, &if keeps_hits { shot } else { Shot { hit: None, ..shot } });
+                    tile.add(i, &if keeps_hits { shot } else { Shot { hit: None, ..shot } }, purpose);
                 } else {
                     tally.non_finite += 1;
                 }
@@ -149,7 +163,7 @@ impl Shooter<'_> {
 
     /// One sample of one pixel.
     fn shoot(&self, pixel: [u32; 2], sample: u32, rays: &mut RayCounters) -> Shot {
-        let at = self.filter.sample(self.seed, pixel, sample);
+        let at = self.filter.sample(&self.pattern, pixel, sample);
         let empty = Shot {
             radiance: Rgb::ZERO,
             alpha: 0.0,
@@ -158,7 +172,7 @@ impl Shooter<'_> {
             is_negative: at.is_negative,
             distance: at.offset.length_squared() as f32,
         };
-        let sampler = Sampler::new(self.seed, pixel, sample);
+        let sampler = self.pattern.sampler(pixel, sample);
         let mut draws = sampler.fork(branch::CAMERA);
         let (lens, time) = (draws.next_2d(), draws.next_1d());
         let centre = DVec2::new(f64::from(pixel[0]), f64::from(pixel[1])) + 0.5;

@@ -129,7 +129,8 @@ fn a_moving_edge_is_a_linear_ramp() {
     for x in 0..WIDTH {
         let mean = (0..HEIGHT).map(|y| value(&picture, "R", x, y)).sum::<f32>() / HEIGHT as f32;
         let want = ((x as f32 + 0.5 - 20.0) / 24.0).clamp(0.0, 1.0);
-        assert!((mean - want).abs() < 2e-3, "column {x}: {mean} for {want}");
+        // Five deviations of the mean of 32 pixels with 256 samples each.
+        assert!((mean - want).abs() < 5e-3, "column {x}: {mean} for {want}");
     }
 }
 

@@ -44,6 +44,11 @@ pub enum IntegratorKind {
 }
 
 impl IntegratorKind {
+    /// Whether pictures of it have noise beside that of edges.
+    pub fn is_noisy(self) -> bool {
+        self.traces_paths() || matches!(self, Self::Whitted | Self::AmbientOcclusion)
+    }
+
     /// Whether it follows light as physics has it, so that surfaces and lights mean what their units say.
     pub fn traces_paths(self) -> bool {
         matches!(self, Self::Direct | Self::PathSimple | Self::Path | Self::VolPath)
@@ -76,6 +81,16 @@ pub struct DepthLimits {
     pub transmission: u32,
     /// Scattered by media; these do not count in `total`.
     pub volume: u32,
+}
+
+/// How the random numbers of pixels stand to each other. A pixel is equally good by itself either way.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SamplerKind {
+    /// Nothing: the error of a picture is white noise.
+    White,
+    /// Stratified among neighbours: the error is blue noise, which is less seen, and goes away with the least blur.
+    #[default]
+    Blue,
 }
 
 impl DepthLimits {
@@ -139,6 +154,10 @@ pub struct Layers {
     pub object_id: bool,
     /// `material_id.Y`: index + 1, 0 on a miss.
     pub material_id: bool,
+    /// `sample_count.Y`: samples of the pixel.
+    pub sample_count: bool,
+    /// `variance.R variance.G variance.B`: estimated square of the pixel's error.
+    pub variance: bool,
 }
 
 impl Layers {
@@ -151,6 +170,8 @@ impl Layers {
         uv: true,
         object_id: true,
         material_id: true,
+        sample_count: true,
+        variance: true,
     };
 }
 
@@ -163,14 +184,24 @@ pub struct RenderSettings {
     pub height: u32,
     /// Only this part is rendered; pixels are the same as in the whole picture.
     pub region: Option<PixelRect>,
-    /// Camera rays per pixel, at least 1.
+    /// Camera rays per pixel, at least 1; the least number where `noise` or `time` is set.
     pub samples: u32,
+    /// Error relative to the brightness of a pixel, above 0, at which it has enough samples. All take `samples` if none is set.
+    pub noise: Option<f32>,
+    /// Radiance below which a pixel counts as bright as this when its noise is weighed, above 0: nobody sees the noise of black.
+    pub noise_floor: f32,
+    /// Seconds after which no further pass begins. The loop over passes keeps to it; what a pass adds does not depend on it.
+    pub time: Option<f64>,
+    /// The most samples per pixel where `noise` or `time` is set, at least `samples`; see [`Self::most_samples`].
+    pub max_samples: Option<u32>,
     /// How radiance is found.
     pub integrator: IntegratorKind,
     /// Reconstruction filter.
     pub filter: Filter,
     /// Radius of the filter in pixels, above 0.
     pub filter_radius: f32,
+    /// How the random numbers of pixels stand to each other.
+    pub sampler: SamplerKind,
     /// Seed of all random numbers.
     pub seed: u64,
     /// Reflections and refractions in a row, at most.
@@ -209,9 +240,14 @@ impl Default for RenderSettings {
             height: 540,
             region: None,
             samples: 16,
+            noise: None,
+            noise_floor: Self::NOISE_FLOOR,
+            time: None,
+            max_samples: None,
             integrator: IntegratorKind::Whitted,
             filter: Filter::BlackmanHarris,
             filter_radius: 1.5,
+            sampler: SamplerKind::default(),
             seed: 0,
             max_depth: 12,
             min_weight: 1.0 / 512.0,
@@ -231,6 +267,20 @@ impl Default for RenderSettings {
 }
 
 impl RenderSettings {
+    /// A twentieth of white: relative noise is seen evenly well down to there, and ever less below.
+    pub const NOISE_FLOOR: f32 = 0.05;
+
+    /// The most samples of a pixel where nobody says otherwise.
+    pub const MAX_SAMPLES: u32 = 16_384;
+
+    /// The most samples that a pixel takes: `samples`, or more where noise or time decides.
+    pub fn most_samples(&self) -> u32 {
+        if self.noise.is_none() && self.time.is_none() {
+            return self.samples;
+        }
+        self.max_samples.unwrap_or(Self::MAX_SAMPLES).max(self.samples)
+    }
+
     /// The pixels to render: the region, cut to the picture, or the whole picture.
     pub fn pixels(&self) -> PixelRect {
         let whole = PixelRect { x0: 0, y0: 0, x1: self.width, y1: self.height };

@@ -1,9 +1,11 @@
 //! Measurements that anyone can repeat: on the release build, medians of interleaved rounds, as Markdown tables.
 
+pub(crate) mod convergence;
 mod generated;
 pub(crate) mod growth;
 pub(crate) mod lights;
 pub(crate) mod peers;
+mod plot;
 pub(crate) mod scenes;
 
 use crate::Outcome;

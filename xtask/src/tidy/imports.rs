@@ -72,7 +72,7 @@ const GRAPH: &[Allowed] = &[
     Allowed {
         package: "xtask",
         inside: &[],
-        outside: &["clap", "delaunator", "glam", "image", "serde_json"],
+        outside: &["clap", "delaunator", "font8x8", "glam", "image", "serde_json"],
     },
     Allowed {
         package: "xtask-bench",

@@ -16,6 +16,8 @@ Examples:
   heliostat render scene.toml --frames 1-48 -o shot.####.exr --skip-existing
   heliostat render scene.toml --set object.ball.translate.1=2.5 --set material.glass.phong.ior=1.33
   heliostat render scene.toml --samples 32 --denoise
+  heliostat render scene.toml --noise 0.02 --max-samples 4096 --aov sample_count,variance -o a.exr
+  heliostat render scene.toml --time 5m                    as many samples as fit into five minutes
   heliostat render scene.toml --progress json --stats stats.json
 
 Ctrl-C stops at the next tile and saves the picture with the samples so far (exit code 130), a numbered frame under
@@ -89,9 +91,21 @@ pub(crate) struct PictureArgs {
     #[arg(long, value_name = "WxH", value_parser = value::size)]
     pub(crate) size: Option<Size>,
 
-    /// Camera rays per pixel
+    /// Camera rays per pixel; the least number where noise or time is set
     #[arg(short, long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_048_576))]
     pub(crate) samples: Option<u32>,
+
+    /// Error of a pixel relative to its brightness, as 0.01, at which it has enough samples
+    #[arg(long, value_name = "X", value_parser = value::positive, allow_hyphen_values = true)]
+    pub(crate) noise: Option<f32>,
+
+    /// Time after which each frame ends with the pass that it is in: 90, 90s, 5m or 2h; takes as many samples as fit into it
+    #[arg(long, value_name = "TIME", value_parser = value::duration, allow_hyphen_values = true)]
+    pub(crate) time: Option<f64>,
+
+    /// The most camera rays per pixel where noise or time is set [default: the scene's, else 16384]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_048_576))]
+    pub(crate) max_samples: Option<u32>,
 
     /// Render this part only: left, top, right and bottom in pixels, the last two exclusive
     #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = value::region)]
@@ -233,4 +247,8 @@ pub(crate) enum Layer {
     ObjectId,
     /// Number of the material, from 1
     MaterialId,
+    /// Samples of the pixel
+    SampleCount,
+    /// Estimated square of the pixel's error
+    Variance,
 }

@@ -102,6 +102,26 @@ pub(crate) fn finite(text: &str) -> Result<f32, String> {
     text.parse().ok().filter(|x: &f32| x.is_finite()).ok_or_else(|| "write a finite number".into())
 }
 
+/// A finite number above 0.
+pub(crate) fn positive(text: &str) -> Result<f32, String> {
+    let number = text.parse().ok().filter(|x: &f32| x.is_finite() && *x > 0.0);
+    number.ok_or_else(|| "write a finite number above 0, as in 0.01".into())
+}
+
+/// Seconds, from a number with `s`, `m`, `h` or nothing behind it.
+pub(crate) fn duration(text: &str) -> Result<f64, String> {
+    let unit = text.chars().last().filter(char::is_ascii_alphabetic);
+    let number = text.strip_suffix(|c: char| c.is_ascii_alphabetic()).unwrap_or(text);
+    let seconds = match unit {
+        None | Some('s') => 1.0,
+        Some('m') => 60.0,
+        Some('h') => 3600.0,
+        Some(_) => f64::NAN,
+    };
+    let time = number.parse().ok().map(|n: f64| n * seconds).filter(|t| t.is_finite() && *t > 0.0);
+    time.ok_or_else(|| "write a time above 0, as in 90, 90s, 5m or 2h".into())
+}
+
 /// A finite number, 0 or above.
 pub(crate) fn non_negative(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|x: &f64| x.is_finite() && *x >= 0.0);

@@ -104,6 +104,11 @@ impl Progress {
         current.begun = Instant::now();
     }
 
+    /// The frame is now expected to take `total` camera rays in all.
+    pub(crate) fn aim(&self, total: u64) {
+        self.lock().total = total;
+    }
+
     /// So many camera rays of the frame are done, and so many rays of any kind. Threads may tell this out of order.
     pub(crate) fn reach(&self, samples: u64, rays: u64) {
         self.done.fetch_max(samples, Ordering::Relaxed);

@@ -6,11 +6,15 @@
 //! width = 960
 //! height = 540
 //! # region = [0, 0, 480, 270]    # left, top, right, bottom: only these pixels
-//! samples = 16                   # camera rays per pixel
+//! samples = 16                   # camera rays per pixel; the least number where noise or time is set
+//! # noise = 0.01                 # error of a pixel relative to its brightness, at which it has enough samples
+//! # time = 60                    # seconds after which the render ends with the pass that it is in
+//! # max_samples = 16384          # the most samples per pixel where noise or time is set
 //! integrator = "whitted"         # "path", "volpath", "path_simple", "direct", "normals", "depth", "uv", "ambient_occlusion", "cost";
 //!                                # "path" where a material is physically based, "volpath" where there is a medium
 //! filter = "blackman_harris"     # "box", "tent", "gaussian", "mitchell", "lanczos"
 //! filter_radius = 1.5            # pixels; the default depends on the filter
+//! sampler = "blue"               # "white": how the noise of pixels stands to that of their neighbours
 //! seed = 0
 //! max_depth = 12                 # reflections and refractions in a row
 //! min_weight = 0.001953125       # a branch of less weight is cut
@@ -21,7 +25,8 @@
 //! ao_samples = 16                # rays per point of the integrator "ambient_occlusion"
 //! # ao_distance = 1              # their length in metres; without end if left out
 //! mip_maps = true                # whether textures are averaged over what a ray stands for
-//! layers = []                    # "depth", "normal", "albedo", "position", "uv", "object_id", "material_id"
+//! layers = []                    # "depth", "normal", "albedo", "position", "uv", "object_id", "material_id",
+//!                                # "sample_count", "variance"
 //! transparent_background = false # alpha 0 where rays leave the scene
 //! # camera = "main"              # the first camera if left out
 //! ```
@@ -30,7 +35,7 @@ use super::depth_limits::DepthLimitsTable;
 use super::number::{Count, NonNegative, Positive, Whole};
 use crate::document::{Fault, Placed};
 use heliostat_scene::RenderSettings;
-use heliostat_scene::settings::{Filter, IntegratorKind, Layers, LightChoice, PixelRect};
+use heliostat_scene::settings::{Filter, IntegratorKind, Layers, LightChoice, PixelRect, SamplerKind};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -50,8 +55,14 @@ pub struct RenderTable {
     pub height: Option<Placed<Side>>,
     /// Left, top, right and bottom of the pixels to render; right and bottom lie outside. All if left out.
     pub region: Option<Placed<[Whole<0, 65_535>; 4]>>,
-    /// Camera rays per pixel; 16 if left out.
+    /// Camera rays per pixel, the least number where `noise` or `time` is set; 16 if left out.
     pub samples: Option<Count>,
+    /// Error of a pixel relative to its brightness, at which it has enough samples; all take the same number if left out.
+    pub noise: Option<Positive>,
+    /// Seconds after which the render ends with the pass that it is in; without end if left out.
+    pub time: Option<Positive>,
+    /// The most camera rays per pixel where `noise` or `time` is set; 16384 if left out.
+    pub max_samples: Option<Count>,
     /// How radiance is found; `volpath` where there is a medium or light below surfaces, `path` where a
     /// material is physically based, else `whitted`, if left out.
     pub integrator: Option<IntegratorName>,
@@ -60,6 +71,8 @@ pub struct RenderTable {
     /// Radius of the filter in pixels; 0.5 for `box`, 1 for `tent`, 1.5 for `gaussian` and `blackman_harris`, 2
     /// for `mitchell`, 3 for `lanczos` if left out.
     pub filter_radius: Option<Positive>,
+    /// How the random numbers of pixels stand to each other; `blue` if left out.
+    pub sampler: Option<SamplerName>,
     /// Seed of all random numbers; 0 if left out.
     pub seed: Option<u64>,
     /// Reflections and refractions in a row, at most; 12 if left out.
@@ -133,6 +146,16 @@ pub enum FilterName {
     Lanczos,
 }
 
+/// How the random numbers of pixels stand to each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SamplerName {
+    /// Not at all: white noise.
+    White,
+    /// Stratified among neighbours: blue noise, which is less seen.
+    Blue,
+}
+
 /// Layers beside the beauty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -151,6 +174,10 @@ pub enum LayerName {
     ObjectId,
     /// `material_id`: index of the material + 1.
     MaterialId,
+    /// `sample_count`: samples of the pixel.
+    SampleCount,
+    /// `variance`: estimated square of the pixel's error.
+    Variance,
 }
 
 /// Which of many lights a point asks.
@@ -228,9 +255,18 @@ impl RenderTable {
             height,
             region: self.region(width, height)?,
             samples: self.samples.map_or(normal.samples, Count::u32),
+            noise: self.noise.map(Positive::f32),
+            noise_floor: normal.noise_floor,
+            time: self.time.map(Positive::get),
+            max_samples: self.max_samples.map(Count::u32),
             integrator: integrator.unwrap_or(natural),
             filter,
             filter_radius: self.filter_radius.map_or(default_radius(filter), Positive::f32),
+            sampler: match self.sampler {
+                Some(SamplerName::White) => SamplerKind::White,
+                Some(SamplerName::Blue) => SamplerKind::Blue,
+                None => normal.sampler,
+            },
             seed: self.seed.unwrap_or(normal.seed),
             max_depth: self.max_depth.map_or(normal.max_depth, Whole::u32),
             min_weight: self.min_weight.map_or(normal.min_weight, NonNegative::f32),
@@ -276,7 +312,7 @@ impl RenderTable {
 
     /// The table that gives `settings`, seen through the camera of that name.
     ///
-    /// Threads belong to the machine and are left out.
+    /// Threads belong to the machine and the noise floor to the exposure: both are left out.
     pub fn from_settings(settings: &RenderSettings, camera: Option<&str>) -> Self {
         let region = settings.region.and_then(|r| {
             let side = |v: u32| Whole::new(i64::from(v));
@@ -287,9 +323,16 @@ impl RenderTable {
             height: Whole::new(settings.height.into()).map(Placed::from),
             region,
             samples: Whole::new(settings.samples.into()),
+            noise: settings.noise.and_then(|noise| Positive::new(noise.into())),
+            time: settings.time.and_then(Positive::new),
+            max_samples: settings.max_samples.and_then(|most| Whole::new(most.into())),
             integrator: counterpart_of(&INTEGRATORS, settings.integrator),
             filter: counterpart_of(&FILTERS, settings.filter),
             filter_radius: Positive::new(settings.filter_radius.into()),
+            sampler: Some(match settings.sampler {
+                SamplerKind::White => SamplerName::White,
+                SamplerKind::Blue => SamplerName::Blue,
+            }),
             seed: Some(settings.seed),
             max_depth: Whole::new(settings.max_depth.into()),
             min_weight: NonNegative::new(settings.min_weight.into()),
@@ -317,6 +360,8 @@ fn layers(names: &[LayerName]) -> Layers {
         uv: has(LayerName::Uv),
         object_id: has(LayerName::ObjectId),
         material_id: has(LayerName::MaterialId),
+        sample_count: has(LayerName::SampleCount),
+        variance: has(LayerName::Variance),
     }
 }
 
@@ -329,6 +374,8 @@ fn layer_names(layers: Layers) -> Vec<LayerName> {
         (layers.uv, LayerName::Uv),
         (layers.object_id, LayerName::ObjectId),
         (layers.material_id, LayerName::MaterialId),
+        (layers.sample_count, LayerName::SampleCount),
+        (layers.variance, LayerName::Variance),
     ];
     pairs.into_iter().filter(|(is_on, _)| *is_on).map(|(_, name)| name).collect()
 }

@@ -8,7 +8,9 @@ use heliostat_io::scene_file::SceneFile;
 use heliostat_io::scene_file::render::RenderTable;
 use heliostat_scene::camera::Projection;
 use heliostat_scene::light::LightKind;
-use heliostat_scene::settings::{DepthLimits, Filter, IntegratorKind, Layers, LightChoice, PixelRect};
+use heliostat_scene::settings::{
+    DepthLimits, Filter, IntegratorKind, Layers, LightChoice, PixelRect, SamplerKind,
+};
 use heliostat_scene::{RenderSettings, Scene};
 use std::collections::BTreeMap;
 
@@ -154,6 +156,11 @@ fn settings_survive_being_written_and_read() {
         height: 65_535,
         region: Some(PixelRect { x0: 0, y0: 7, x1: 1, y1: 9 }),
         samples: u32::MAX,
+        noise: Some(0.125),
+        noise_floor: RenderSettings::NOISE_FLOOR,
+        time: Some(90.5),
+        max_samples: Some(u32::MAX),
+        sampler: SamplerKind::White,
         integrator: IntegratorKind::AmbientOcclusion,
         filter: Filter::Lanczos,
         filter_radius: 0.1,
@@ -167,7 +174,7 @@ fn settings_survive_being_written_and_read() {
         light_choice: LightChoice::Uniform,
         ao_samples: 5,
         ao_distance: 1.0e5,
-        layers: Layers { uv: true, depth: true, ..Layers::default() },
+        layers: Layers { uv: true, depth: true, variance: true, sample_count: true, ..Layers::default() },
         transparent_background: true,
         camera: 1,
         threads: 0,

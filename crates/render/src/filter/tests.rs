@@ -1,6 +1,7 @@
 //! Filters against quadrature of their formulas, and the two strata against their masses.
 
 use super::*;
+use heliostat_scene::RenderSettings;
 
 const ALL: [(Filter, f32); 6] = [
     (Filter::Box, 0.5),
@@ -25,7 +26,7 @@ fn estimate(filter: &PixelFilter, samples: u32, g: impl Fn(DVec2) -> f64) -> f64
     let (a, b) = filter.masses();
     let mut sums = [(0.0, 0.0); 2];
     for sample in 0..samples {
-        let at = filter.sample(5, [100, 200], sample);
+        let at = filter.sample(&pattern(5), [100, 200], sample);
         let stratum = &mut sums[usize::from(at.is_negative)];
         *stratum = (stratum.0 + g(at.offset), stratum.1 + 1.0);
     }
@@ -162,7 +163,7 @@ fn samples_stay_within_the_radius() {
 fn one_sample_lies_on_the_centre_and_adds() {
     for (kind, radius) in ALL {
         let filter = PixelFilter::new(kind, radius, 1);
-        let at = filter.sample(9, [3, 4], 0);
+        let at = filter.sample(&pattern(9), [3, 4], 0);
         assert_eq!(at, FilmSample { offset: DVec2::ZERO, is_negative: false });
         assert_eq!(filter.masses(), (1.0, 0.0));
     }
@@ -173,7 +174,8 @@ fn negative_samples_are_as_many_as_planned_and_evenly_spread() {
     for samples in [2, 3, 4, 16, 100, 1000] {
         let filter = PixelFilter::new(Filter::Lanczos, 3.0, samples);
         let (a, b) = filter.masses();
-        let signs: Vec<bool> = (0..samples).map(|s| filter.sample(0, [0, 0], s).is_negative).collect();
+        let signs: Vec<bool> =
+            (0..samples).map(|s| filter.sample(&pattern(0), [0, 0], s).is_negative).collect();
         let count = |signs: &[bool]| signs.iter().filter(|&&s| s).count() as f64;
         let share = b / (a + b);
         assert!((count(&signs) - share * f64::from(samples)).abs() <= 1.0);
@@ -199,4 +201,8 @@ fn a_straight_edge_through_a_pixel_is_stratified() {
             assert!((covered - (0.5 + edge)).abs() <= 1.0 / f64::from(samples));
         }
     }
+}
+
+fn pattern(seed: u64) -> Pattern {
+    Pattern::new(&RenderSettings { seed, ..RenderSettings::default() })
 }

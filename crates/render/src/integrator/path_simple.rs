@@ -98,8 +98,7 @@ impl Walk<'_, '_> {
     /// The radiance that a leg sees.
     fn radiance(&mut self, mut leg: Leg) -> Rgb {
         let world = self.world;
-        let Some(surface) = &world.seen_inside(&leg.passing, leg.around.last(), self.time, leg.eye())
-        else {
+        let Some(surface) = &world.seen_inside(&leg.passing, leg.around.last(), self.time, leg.eye()) else {
             return self.beyond(&leg);
         };
         let dir = leg.passing.ray.dir;

@@ -124,6 +124,9 @@ impl Run<'_> {
         let mut traced =
             trace::trace(&shot.scene, &shot.settings, &mut self.cache, self.progress, self.signals.stop())?;
         self.progress.end();
+        if shot.settings.noise.is_some() || shot.settings.time.is_some() {
+            self.progress.result(&traced.quality());
+        }
 
         let save_start = Instant::now();
         let mut saved = Vec::new();

@@ -77,6 +77,8 @@ impl Report {
             "outputs": saved.iter().map(|path| path.to_string_lossy()).collect::<Vec<_>>(),
             "finished": traced.finished,
             "samples": stats.samples,
+            "mean_samples_per_pixel": traced.mean_samples,
+            "relative_error": traced.error,
             "non_finite_samples": stats.non_finite_samples,
             "seconds": seconds.json(),
             "rays": rays_json(&stats.rays),

@@ -3,6 +3,7 @@
 use crate::args::{ExrDepth, Integrator, Layer, RenderArgs};
 use crate::diagnose::Failure;
 use heliostat_io::Shot;
+use heliostat_scene::RenderSettings;
 use heliostat_scene::frame::Depth;
 use heliostat_scene::settings::{IntegratorKind, Layers};
 
@@ -24,6 +25,9 @@ pub(super) fn apply(args: &RenderArgs, shot: &mut Shot) -> Result<(), Failure> {
     let settings = &mut shot.settings;
     settings.threads = args.run.threads.into();
     settings.samples = picture.samples.unwrap_or(settings.samples);
+    settings.noise = picture.noise.or(settings.noise);
+    settings.time = picture.time.or(settings.time);
+    settings.max_samples = picture.max_samples.or(settings.max_samples);
     settings.seed = picture.seed.unwrap_or(settings.seed);
     settings.region = picture.region.or(settings.region);
     settings.integrator = picture.integrator.map_or(settings.integrator, integrator);
@@ -43,11 +47,36 @@ pub(super) fn apply(args: &RenderArgs, shot: &mut Shot) -> Result<(), Failure> {
     }
     shot.view.transform = output.view.map_or(shot.view.transform, Into::into);
     shot.view.exposure = output.exposure.unwrap_or(shot.view.exposure);
+    // White of the picture, and with it what is dark, lies elsewhere in radiance.
+    shot.settings.noise_floor = RenderSettings::NOISE_FLOOR * (-shot.view.exposure).exp2();
+    ends(&shot.settings)?;
     shot.output.exr_depth = output.exr_depth.map_or(shot.output.exr_depth, |depth| match depth {
         ExrDepth::Half => Depth::Half,
         ExrDepth::Float => Depth::Float,
     });
     Ok(())
+}
+
+/// Refuses what would do nothing, or contradicts itself.
+fn ends(settings: &RenderSettings) -> Result<(), Failure> {
+    let is_open = settings.noise.is_some() || settings.time.is_some();
+    let line = match settings.max_samples {
+        Some(_) if !is_open => {
+            "--max-samples does nothing by itself; write --noise or --time with it, or --samples".into()
+        }
+        Some(most) if most < settings.samples => {
+            let samples = settings.samples;
+            format!(
+                "at least {samples} samples and at most {most}; write --max-samples {samples} or above, or fewer --samples"
+            )
+        }
+        _ if settings.noise.is_some() && !settings.integrator.is_noisy() => {
+            "noise is asked for and the integrator has none; leave --noise out, or write --integrator path"
+                .into()
+        }
+        _ => return Ok(()),
+    };
+    Err(Failure::usage(line))
 }
 
 fn integrator(name: Integrator) -> IntegratorKind {
@@ -77,6 +106,8 @@ fn layers(names: &[Layer]) -> Layers {
             Layer::Uv => layers.uv = true,
             Layer::ObjectId => layers.object_id = true,
             Layer::MaterialId => layers.material_id = true,
+            Layer::SampleCount => layers.sample_count = true,
+            Layer::Variance => layers.variance = true,
         }
     }
     layers

@@ -78,7 +78,8 @@ impl Integrator for VolPath {
         counters: &mut RayCounters,
     ) -> Sample {
         let mut found = Found::default();
-        let mut way = Way::new(PassingRay::free(ray.ray).with_cone(ray.cone), world.around(ray.ray.origin, ray.time));
+        let mut way =
+            Way::new(PassingRay::free(ray.ray).with_cone(ray.cone), world.around(ray.ray.origin, ray.time));
         for number in 0.. {
             let mut step = Step { world, time: ray.time, draws: sampler.fork(number), counters };
             if self.follow(&mut step, &mut way, &mut found).is_break() {
