@@ -85,12 +85,12 @@ pub(crate) const fn cosine_weights<const N: usize>() -> [f32; N] {
 
 /// The integral of Chebyshev's polynomial from -1 to 1.
 const fn integral(degree: usize) -> f64 {
-    if degree % 2 == 0 { 2.0 / (1.0 - (degree * degree) as f64) } else { 0.0 }
+    if degree & 1 == 0 { 2.0 / (1.0 - (degree * degree) as f64) } else { 0.0 }
 }
 
 /// What the value at node `k` adds to coefficient `j`.
 const fn factor<const N: usize>(j: usize, k: usize) -> f64 {
-    let sign = if j % 2 == 0 { 1.0 } else { -1.0 };
+    let sign = if j & 1 == 0 { 1.0 } else { -1.0 };
     let share = if j == 0 { 1.0 } else { 2.0 };
     sign * share * cosine(PI * j as f64 * (k as f64 + 0.5) / N as f64) / N as f64
 }
@@ -110,7 +110,7 @@ const fn sines<const N: usize>() -> [f32; N] {
     let mut sines = [0.0; N];
     let mut k = 0;
     while k < N {
-        let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = if k & 1 == 0 { 1.0 } else { -1.0 };
         sines[k] = (sign * cosine(PI * (k as f64 + 0.5) / N as f64 - 0.5 * PI)) as f32;
         k += 1;
     }

@@ -99,7 +99,7 @@ fn bound(name: &str, is_outside: bool) -> [f32; 2] {
 }
 
 /// Matte matter under a boundary, from the outside.
-const PLASTIC: [f32; 2] = [10.0, 6.0];
+const PLASTIC: [f32; 2] = [1.5, 1.5];
 
 #[test]
 fn bsdf_furnace_is_white() {
