@@ -87,6 +87,7 @@ fn bound(name: &str, is_outside: bool) -> [f32; 2] {
         ("all layers", _) => [1.0, 15.5],
         ("sheen over plastic" | "sheen over metal", _) => [3.0, 9.0],
         ("coat over plastic", _) => [1.0, 6.0],
+        ("plastic, rough matte" | "plastic, film", _) => [3.0, 2.0],
         (_, false) => [8.0, 7.0],
         (
             "metal, anisotropic" | "matte" | "matte, rough" | "glass" | "glass, film" | "glass, dispersed",
