@@ -41,7 +41,7 @@ pub(crate) fn check() -> Outcome {
 /// The bytes of all files that are committed.
 fn committed() -> Result<BTreeMap<PathBuf, Vec<u8>>, String> {
     let mut files = vec![root().join(partition::PICTURE), root().join(TABLES)];
-    for folder in ["assets/meshes", "assets/textures"] {
+    for folder in ["assets/meshes", "assets/textures", "assets/volumes"] {
         let entries = std::fs::read_dir(root().join(folder)).map_err(|e| format!("{folder}: {e}"))?;
         files.extend(entries.filter_map(|entry| Some(entry.ok()?.path())));
     }
