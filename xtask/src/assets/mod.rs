@@ -15,7 +15,7 @@ mod textures;
 
 use crate::Outcome;
 use crate::heliostat::Heliostat;
-use crate::process::{capture, root, say};
+use crate::process::{capture, cargo, root, run as run_command, say};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -24,7 +24,8 @@ pub(crate) fn run() -> Outcome {
     from_formulas()?;
     let heliostat = Heliostat::build()?;
     export_cells(&heliostat)?;
-    partition::draw(&heliostat)
+    partition::draw(&heliostat)?;
+    make_tables()
 }
 
 /// Generates every asset, and fails when a committed one was not what it is now.
@@ -40,7 +41,7 @@ pub(crate) fn check() -> Outcome {
 
 /// The bytes of all files that are committed.
 fn committed() -> Result<BTreeMap<PathBuf, Vec<u8>>, String> {
-    let mut files = vec![root().join(partition::PICTURE)];
+    let mut files = vec![root().join(partition::PICTURE), root().join(TABLES)];
     for folder in ["assets/meshes", "assets/textures", "assets/volumes", "assets/lamps"] {
         let entries = std::fs::read_dir(root().join(folder)).map_err(|e| format!("{folder}: {e}"))?;
         files.extend(entries.filter_map(|entry| Some(entry.ok()?.path())));
@@ -81,6 +82,17 @@ fn from_formulas() -> Outcome {
         std::fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))?;
     }
     Ok(())
+}
+
+/// How much light rough surfaces send back.
+const TABLES: &str = "crates/render/src/bsdf/table/tables.f32";
+
+/// The code that makes the tables is no part of the renderer, but of its tests.
+fn make_tables() -> Outcome {
+    say(&format!("{TABLES}: integrals over facets"));
+    let mut tests = cargo(&["test", "-p", "heliostat-render", "--lib", "bsdf_tables_are_written"]);
+    tests.env("HELIOSTAT_MAKE_TABLES", "1");
+    run_command(tests)
 }
 
 /// The cells around the coarse sphere, as a mesh of its own.

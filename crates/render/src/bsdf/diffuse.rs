@@ -24,15 +24,34 @@ impl Matte {
             return self.color;
         }
         let r = self.roughness;
-        let (zo, zi) = (wo.z, wi.z);
-        let s = wo.dot(wi) - zo * zi;
-        let lean = if s > 0.0 { s / zo.max(zi) } else { s };
-        let once = self.color * scale(r) * (1.0 + r * lean);
-        let mean = scale(r) * (1.0 + MEAN_SLOPE * r);
-        let room = 1.0 - mean;
-        let between = self.color * self.color * mean / (Rgb::ONE - self.color * room);
-        once + between * (1.0 - once_albedo(zo, r)).max(0.0) * (1.0 - once_albedo(zi, r)).max(0.0) / room
+        let once = self.color * scale(r) * (1.0 + r * lean(wo, wi));
+        let room = self.missing_mean();
+        let between = self.color * self.color * (1.0 - room) / (Rgb::ONE - self.color * room);
+        once + between * self.missing(wo.z) * self.missing(wi.z) / room
     }
+}
+
+impl Matte {
+    /// What facets of white matter send on at once, from light of which so much comes in and so much of it leaning.
+    pub(crate) fn once(&self, all: Rgb, leaning: Rgb) -> Rgb {
+        scale(self.roughness) * (all + self.roughness * leaning)
+    }
+
+    /// What they do not send on at once to a viewer at an angle of cosine `cos`.
+    pub(crate) fn missing(&self, cos: f32) -> f32 {
+        (1.0 - once_albedo(cos, self.roughness)).max(0.0)
+    }
+
+    /// The mean of that over the hemisphere.
+    pub(crate) fn missing_mean(&self) -> f32 {
+        1.0 - scale(self.roughness) * (1.0 + MEAN_SLOPE * self.roughness)
+    }
+}
+
+/// How much more light of one direction is sent to another because facets face it: `s / t` of the model of Fujii.
+pub(crate) fn lean(wo: Vec3, wi: Vec3) -> f32 {
+    let s = wo.dot(wi) - wo.z * wi.z;
+    if s > 0.0 { s / wo.z.max(wi.z) } else { s }
 }
 
 /// `1/2 - 2 / (3 pi)`.

@@ -37,6 +37,7 @@ impl Ggx {
     }
 
     /// The same width along all tangents; at least that of which rounding leaves something.
+    #[cfg(test)]
     pub(crate) fn isotropic(alpha: f32) -> Self {
         Self { alpha: Vec2::splat(alpha.max(error_bound::LEAST_WIDTH)), tangent: Vec2::X }
     }
@@ -47,6 +48,7 @@ impl Ggx {
     }
 
     /// A distribution of width `alpha`, drawn out along x by `strength` in `[0, 1]`.
+    #[cfg(test)]
     pub(crate) fn stretched_by(alpha: f32, strength: f32) -> Self {
         let along = alpha + (1.0 - alpha) * strength * strength;
         Self { alpha: Vec2::new(along, alpha), tangent: Vec2::X }
@@ -73,10 +75,27 @@ impl Ggx {
         (self.turned(w).truncate().normalize_or(Vec2::X) * self.alpha).length()
     }
 
-    /// Angle between the first tangent and the plane of the normal and `w`, in `[0, pi / 2]`.
+    /// Square of the sine of the angle between the first tangent and the plane of the normal and `w`.
     pub(crate) fn turn_of(&self, w: Vec3) -> f32 {
-        let flat = self.turned(w).truncate().abs();
-        flat.y.atan2(flat.x)
+        let flat = self.turned(w).truncate();
+        let length = flat.length_squared();
+        if length > 0.0 { flat.y * flat.y / length } else { 0.0 }
+    }
+
+    /// The direction in the tangent plane whose [`Self::turn_of`] is `turn`.
+    pub(crate) fn along(&self, turn: f32) -> Vec2 {
+        Vec2::new((1.0 - turn).max(0.0).sqrt(), turn.sqrt()).rotate(self.tangent)
+    }
+
+    /// Width of the isotropic distribution that looks about the same from `w`: at grazing angles only slopes towards the
+    /// viewer count, at normal ones those along both tangents.
+    pub(crate) fn alike(&self, w: Vec3) -> f32 {
+        if self.is_isotropic() {
+            return self.alpha.x;
+        }
+        let along = self.width_along(w).powi(2);
+        let both = 0.5 * self.alpha.length_squared();
+        (along + (both - along) * w.z * w.z).sqrt()
     }
 
     /// Whether all tangents are alike.
@@ -107,6 +126,7 @@ impl Ggx {
     }
 
     /// By how much [`Self::stretched`] exceeds the height, to its last digits.
+    #[cfg(test)]
     fn excess(&self, w: Vec3) -> f32 {
         let flat = (self.turned(w).truncate() * self.alpha).length_squared();
         let sum = self.stretched(w) + w.z.abs();
@@ -116,6 +136,7 @@ impl Ggx {
     /// Share of the facets seen from `wo` that do not see `wi`: `1 - G2 / G1`, to its last digits where that is small.
     ///
     /// `wi` may be on the other side, where heights count as if it were on this one.
+    #[cfg(test)]
     pub(crate) fn hidden(&self, wo: Vec3, wi: Vec3) -> f32 {
         wo.z * self.excess(wi) * self.correlated(wo, wi)
     }
@@ -150,6 +171,7 @@ impl Ggx {
 
     /// One less value over density of `wi` by [`Self::visible_reflecting`], for facets that reflect all light: to its last
     /// digits where that is small.
+    #[cfg(test)]
     pub(crate) fn hidden_reflecting(&self, wo: Vec3, wi: Vec3) -> f32 {
         // How much the cap shrinks: 1 - k of the paper.
         let a2 = self.alpha.min_element().powi(2);

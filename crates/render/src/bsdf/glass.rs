@@ -6,7 +6,7 @@
 //! both sides are those of each other times `eta^2`.
 
 use super::ggx::Ggx;
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 use heliostat_scene::Rgb;
 
 /// The direction into which light that is seen along `wo` was bent at the facet `h`.
@@ -54,11 +54,10 @@ impl Bend {
     }
 }
 
-/// Draws a direction for [`Bend`]; `None` where the facet reflects all, or bends light back to its own side.
-pub(crate) fn sample_bend(ggx: &Ggx, wo: Vec3, eta: f32, u: Vec2) -> Option<Vec3> {
-    let h = ggx.visible(wo, u);
-    let cos = wo.dot(h);
-    let other = super::fresnel::refraction(cos.clamp(0.0, 1.0), eta).cos;
+/// The direction of [`Bend`] at the facet `h`, which meets `wo` at an angle of cosine `cos`; `None` where it reflects all, or
+/// bends light back to its own side.
+pub(crate) fn bent(wo: Vec3, h: Vec3, cos: f32, eta: f32) -> Option<Vec3> {
+    let other = super::fresnel::refraction(cos, eta).cos;
     let wi = refract(wo, h, cos, other, eta).normalize_or_zero();
     (cos > 0.0 && other > 0.0 && wi.z < 0.0).then_some(wi)
 }

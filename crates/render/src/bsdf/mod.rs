@@ -28,7 +28,6 @@ pub(crate) use standard::{StandardBsdf, StandardPoint};
 
 use crate::material_eval::MaterialEval;
 use glam::{Vec2, Vec3};
-use glass::refract;
 use heliostat_scene::Rgb;
 use heliostat_scene::material::Surface;
 use phong::PhongBsdf;
@@ -92,7 +91,7 @@ impl Bsdf {
     clippy::large_enum_variant,
     reason = "it is worked out where it stays; a box would cost more than its size"
 )]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) enum Bsdf {
     /// The report's surface.
     Phong(PhongBsdf),

@@ -43,6 +43,11 @@ impl Facet {
     pub(crate) fn pdf(&self, ggx: &Ggx, wo: Vec3) -> f32 {
         ggx.reflecting_pdf(wo, self.h)
     }
+
+    /// Density of `wi` where facets are drawn as they are seen.
+    pub(crate) fn seen_pdf(&self, ggx: &Ggx, wo: Vec3) -> f32 {
+        ggx.density(self.h) / (2.0 * (wo.z + ggx.stretched(wo)))
+    }
 }
 
 /// Draws a direction for [`Facet`]; `None` below the surface.

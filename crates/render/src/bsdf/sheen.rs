@@ -15,6 +15,17 @@ pub(crate) struct Sheen {
 /// The least roughness that is told from smaller ones: below, the lobe would be too narrow at grazing angles to be drawn.
 const LEAST_ROUGHNESS: f32 = 0.1;
 
+/// From a roughness in `[0, 1]` to the axis on which different ones lie.
+pub(crate) fn roughness_axis(roughness: f32) -> f32 {
+    ((roughness - LEAST_ROUGHNESS) / (1.0 - LEAST_ROUGHNESS)).clamp(0.0, 1.0)
+}
+
+/// The inverse of [`roughness_axis`].
+#[cfg(test)]
+pub(crate) fn axis_roughness(x: f32) -> f32 {
+    LEAST_ROUGHNESS + (1.0 - LEAST_ROUGHNESS) * x
+}
+
 impl Sheen {
     /// `roughness` in `[0, 1]`; the width is its square.
     pub(crate) fn new(roughness: f32) -> Self {

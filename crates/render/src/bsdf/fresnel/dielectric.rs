@@ -2,7 +2,6 @@
 
 use super::{Film, schlick};
 use heliostat_scene::Rgb;
-use std::f32::consts::FRAC_1_SQRT_2;
 
 /// What happens to light at a smooth boundary, unpolarised.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,14 +98,6 @@ impl Boundary {
     fn bare(&self) -> Affine {
         Affine { least: normal_reflectance(self.eta), normal: self.normal, grazing: self.grazing }
     }
-
-    /// The reflectance as a linear function of Fresnel's; about that, where there is a film.
-    pub(crate) fn affine(&self) -> Affine {
-        let Some((share, film)) = self.film else { return self.bare() };
-        // The cosine that halves the light from all around.
-        let normal = self.normal.lerp(film.reflectance(FRAC_1_SQRT_2, self.normal), share);
-        Affine { normal, grazing: self.grazing + (1.0 - self.grazing) * share, ..self.bare() }
-    }
 }
 
 /// Reflectance at normal incidence.
@@ -116,13 +107,13 @@ fn normal_reflectance(eta: f32) -> f32 {
 
 /// A reflectance that follows Fresnel's curve between other ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Affine {
+struct Affine {
     /// Where Fresnel's curve starts.
-    pub(crate) least: f32,
+    least: f32,
     /// Where this one starts.
-    pub(crate) normal: Rgb,
+    normal: Rgb,
     /// Where it ends.
-    pub(crate) grazing: f32,
+    grazing: f32,
 }
 
 impl Affine {
@@ -130,12 +121,5 @@ impl Affine {
     fn at(&self, exact: f32, mirror: impl Fn() -> f32) -> Rgb {
         let way = if self.least < 1.0 { (exact - self.least) / (1.0 - self.least) } else { mirror() };
         self.normal.lerp(Rgb::splat(self.grazing), way.clamp(0.0, 1.0))
-    }
-
-    /// Constant and factor of the line: reflectance is `constant + factor * exact`.
-    pub(crate) fn line(&self) -> (Rgb, Rgb) {
-        let room = 1.0 - self.least;
-        let factor = if room > 0.0 { (Rgb::splat(self.grazing) - self.normal) / room } else { Rgb::ZERO };
-        (self.normal - self.least * factor, factor)
     }
 }

@@ -5,7 +5,7 @@ mod dielectric;
 mod metal;
 mod thin_film;
 
-pub(crate) use dielectric::{Affine, Boundary, refraction};
+pub(crate) use dielectric::{Boundary, refraction};
 pub(crate) use metal::Metal;
 pub(crate) use thin_film::Film;
 

@@ -91,6 +91,21 @@ impl Base {
         weight * through
     }
 
+    /// [`Self::reflected`] and [`Self::passed`] at once.
+    pub(super) fn split(&self, cos: f32) -> (Rgb, Rgb) {
+        let face = self.clear.reflectance(cos);
+        let (sides, clear) = match self.passage {
+            Passage::Sheet => {
+                let sides = sheet(face, self.tint);
+                (sides, face.lerp(sides.0, self.transmission))
+            }
+            _ => ((face, self.tint * (Rgb::ONE - face)), face),
+        };
+        let metal =
+            if self.metalness > 0.0 { self.metalness * self.metal.reflectance(cos) } else { Rgb::ZERO };
+        (metal + (1.0 - self.metalness) * clear, self.glass_share() * sides.1)
+    }
+
     /// What a thin wall of this matter reflects and lets through.
     pub(super) fn sheet_sides(&self, cos: f32) -> (Rgb, Rgb) {
         sheet(self.clear.reflectance(cos), self.tint)

@@ -5,14 +5,14 @@ use crate::bsdf::ggx::Ggx;
 use crate::bsdf::reflect::Facet;
 use crate::bsdf::sheen::Sheen;
 use crate::bsdf::standard::StandardPoint;
-use crate::bsdf::table::{Curve, Reflection, sheen_albedo, sheen_scale};
+use crate::bsdf::table::{Curve, CurveSeen, Reflection, SheenAlbedo};
 use glam::{Vec2, Vec3};
 use heliostat_geometry::OrthonormalFrame;
 use heliostat_scene::Rgb;
 use std::f32::consts::FRAC_1_PI;
 
 /// The layers over the base; each lets pass what it does not send back.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Cover {
     pub(super) coat: Option<Coat>,
     pub(super) fibres: Option<Fibres>,
@@ -37,17 +37,17 @@ impl Cover {
 
     /// Share of the light that passes on its way in or out along `w`, which may be on either side.
     pub(super) fn passed(&self, w: Vec3) -> f32 {
-        self.coat_passed(w) * self.fibres.map_or(1.0, |fibres| 1.0 - fibres.kept(w))
+        self.coat_passed(w) * self.fibres.as_ref().map_or(1.0, |fibres| 1.0 - fibres.kept(w))
     }
 
     /// The same for the coat alone.
     pub(super) fn coat_passed(&self, w: Vec3) -> f32 {
-        self.coat.map_or(1.0, |coat| 1.0 - coat.kept(w))
+        self.coat.as_ref().map_or(1.0, |coat| 1.0 - coat.kept(w))
     }
 }
 
 /// A clear coat, white.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Coat {
     /// Share of the surface under it.
     weight: f32,
@@ -55,7 +55,7 @@ pub(super) struct Coat {
     /// `None` for a smooth coat.
     pub(super) ggx: Option<Ggx>,
     boundary: Boundary,
-    curve: Curve,
+    curve: CurveSeen,
     reflection: Reflection,
     /// What is left of light that facets throw at each other.
     between: f32,
@@ -68,7 +68,7 @@ impl Coat {
         let curve = Curve::new(|cos| boundary.reflectance(cos));
         let reflection = Reflection::of(ggx);
         let between = reflection.between(&curve).x;
-        let frame = OrthonormalFrame::around(normal);
+        let (frame, curve) = (OrthonormalFrame::around(normal), reflection.seen(&curve));
         Self { weight: point.coat, frame, ggx, boundary, curve, reflection, between }
     }
 
@@ -82,21 +82,16 @@ impl Coat {
         self.frame.to_world(w)
     }
 
-    /// The reflectance of a smooth coat.
-    pub(super) fn smooth(&self, wo: Vec3) -> f32 {
-        self.weight * self.boundary.reflectance(wo.dot(self.frame.z).clamp(0.0, 1.0)).x
-    }
-
-    /// Share of the light that goes to a viewer in all.
-    pub(super) fn share(&self, wo: Vec3) -> f32 {
-        if self.ggx.is_some() { self.kept(wo) } else { self.smooth(wo) }
-    }
-
-    /// Share of the light along `w` that the coat sends back.
-    fn kept(&self, w: Vec3) -> f32 {
+    /// Share of the light along `w`, which may be on either side, that the coat sends back.
+    pub(super) fn kept(&self, w: Vec3) -> f32 {
         let w = self.local(w);
-        let once = self.reflection.albedo(&self.curve, w).x;
-        (self.weight * (once + self.between * self.reflection.lost(w))).clamp(0.0, 1.0)
+        if self.ggx.is_none() {
+            return self.weight * self.boundary.reflectance(w.z.abs().min(1.0)).x;
+        }
+        let place = self.reflection.place(w);
+        let lost = self.reflection.lost(&place);
+        let once = (1.0 - lost) * self.curve.at(&place).x;
+        (self.weight * (once + self.between * lost)).clamp(0.0, 1.0)
     }
 
     /// The value of a rough coat, with what facets throw at each other.
@@ -104,9 +99,9 @@ impl Coat {
         let (wo, wi) = (self.local(wo), self.local(wi));
         let (Some(ggx), Some(facet)) = (&self.ggx, Facet::between(wo, wi)) else { return 0.0 };
         let once = self.boundary.reflectance(facet.cos).x * facet.value(ggx, wo, wi);
-        let lost = self.reflection.lost(wo) * self.reflection.lost(wi) / self.reflection.lost_mean();
-        let again = self.between * lost * wi.z * FRAC_1_PI;
-        self.weight * (once + again)
+        let lost = |w: Vec3| self.reflection.lost(&self.reflection.place(w));
+        let again = self.between * lost(wo) * lost(wi) / self.reflection.lost_mean();
+        self.weight * (once + again * wi.z * FRAC_1_PI)
     }
 
     /// Density of `wi` among directions drawn for facets of a rough coat.
@@ -123,25 +118,24 @@ impl Coat {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fibres {
     color: Rgb,
-    roughness: f32,
+    albedo: SheenAlbedo,
     sheen: Sheen,
 }
 
 impl Fibres {
     fn new(point: &StandardPoint) -> Self {
-        let roughness = point.sheen_roughness;
-        let color = sheen_scale(roughness) * point.sheen_color;
-        Self { color, roughness, sheen: Sheen::new(roughness) }
+        let albedo = SheenAlbedo::new(point.sheen_roughness);
+        Self { color: albedo.scale() * point.sheen_color, albedo, sheen: Sheen::new(point.sheen_roughness) }
     }
 
     /// Share of the light along `w` that the brightest fibres send back.
     pub(super) fn kept(&self, w: Vec3) -> f32 {
-        (self.color.max_element() * sheen_albedo(self.roughness, w.z.abs())).clamp(0.0, 1.0)
+        (self.color.max_element() * self.albedo.at(w.z.abs())).clamp(0.0, 1.0)
     }
 
     /// Share of the light that goes to a viewer.
     pub(super) fn albedo(&self, wo: Vec3) -> Rgb {
-        self.color * sheen_albedo(self.roughness, wo.z)
+        self.color * self.albedo.at(wo.z)
     }
 
     /// The value.

@@ -8,13 +8,13 @@
 //! Kulla, Conty, "Revisiting Physically Based Shading at Imageworks", 2017; Kelemen, Szirmay-Kalos, "A Microfacet Based
 //! Coupled Specular-Matte BRDF Model", 2001, for matte matter under a boundary.
 
+use super::balance::Balance;
 use super::base::{Base, Passage};
 use super::cover::Cover;
 use super::glass_fill::GlassFill;
 use crate::bsdf::diffuse::Matte;
-use crate::bsdf::reflect::mirrored_down;
 use crate::bsdf::standard::StandardPoint;
-use crate::bsdf::table::{Curve, Reflection, cosine_mean};
+use crate::bsdf::table::{Curve, CurveSeen, Place, Profile, Reflection};
 use glam::Vec3;
 use heliostat_geometry::error_bound;
 use heliostat_scene::Rgb;
@@ -28,7 +28,7 @@ pub(super) struct Sides {
 }
 
 /// All that comes back from anywhere.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Fill {
     reflection: Reflection,
     facets: Option<FacetFill>,
@@ -47,10 +47,12 @@ struct FacetFill {
 }
 
 /// Matte matter under the boundary: its share, what it sends to either side, and the mean of its profile.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct MatteFill {
     share: f32,
     up: Matte,
+    /// For rough matter under something.
+    balance: Option<Box<Balance>>,
     down: Rgb,
     /// Share of the light that walks below the surface, and its colour when it comes out.
     under: f32,
@@ -58,50 +60,66 @@ struct MatteFill {
     mean: Rgb,
 }
 
-/// Light of facets that the cover throws back at them: its colour, what passes the cover over the cosine, and the mean of its
-/// profile.
-#[derive(Clone, Copy, Debug)]
+impl MatteFill {
+    fn sent_up(&self, wo: Vec3, wi: Vec3) -> Rgb {
+        let color = self.up.times_pi(wo, wi);
+        self.balance.as_ref().map_or(color, |balance| balance.at(wo) * balance.at(wi) * color)
+    }
+}
+
+/// Light of facets that the cover throws back at them: what it stops of white light, the colour that is left of it, and the
+/// mean of its profile.
+#[derive(Clone, Debug)]
 struct CoverFill {
-    color: Rgb,
-    passed: Curve,
-    mean: f32,
+    stopped: Profile<f32>,
+    color: CurveSeen,
+    mean: Rgb,
 }
 
 impl CoverFill {
     fn new(base: &Base, cover: &Cover, reflection: &Reflection) -> Self {
-        let color = cosine_mean(&Curve::new(|cos| base.reflected(cos)));
-        let passed = Curve::new(|cos| {
-            let w = Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
-            Rgb::splat(cover.passed(w))
-        });
-        let mean = reflection.mean_around(|w| Rgb::splat(reflection.stopped(&passed, w))).x;
-        Self { color, passed, mean: mean.max(f32::MIN_POSITIVE) }
+        let color = reflection.seen(&Curve::new(|cos| base.reflected(cos)));
+        let stopped = reflection.stopped(|w| cover.passed(w));
+        let fill = Self { stopped, color, mean: Rgb::ZERO };
+        let mean = reflection.mean_around(|w| fill.profile(&reflection.place(w)));
+        Self { mean: mean.max(Rgb::splat(f32::MIN_POSITIVE)), ..fill }
+    }
+
+    fn profile(&self, place: &Place) -> Rgb {
+        self.stopped.at(place.steep).max(0.0) * self.color.at(place)
     }
 }
 
 /// The boundary of clear matter as a layer.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Face {
-    curve: Curve,
+    curve: CurveSeen,
     between: Rgb,
     /// Whether it reflects nothing.
     is_dark: bool,
 }
 
 impl Face {
-    /// Share of the light along `w` that gets through.
-    fn passed(&self, reflection: &Reflection, w: Vec3) -> Rgb {
+    /// Share of the light there that gets through.
+    fn passed(&self, reflection: &Reflection, place: &Place) -> Rgb {
         if self.is_dark {
             return Rgb::ONE;
         }
-        let kept = reflection.albedo(&self.curve, w) + self.between * reflection.lost(w);
+        let lost = reflection.lost(place);
+        let kept = (1.0 - lost) * self.curve.at(place) + self.between * lost;
         (Rgb::ONE - kept).clamp(Rgb::ZERO, Rgb::ONE)
     }
+}
 
-    fn passed_mean(&self, reflection: &Reflection) -> Rgb {
-        let kept = reflection.albedo_mean(&self.curve) + self.between * reflection.lost_mean();
-        (Rgb::ONE - kept).clamp(Rgb::ZERO, Rgb::ONE)
-    }
+/// The profiles in one direction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Profiles {
+    place: Place,
+    /// What passes the cover.
+    pub(super) cover: f32,
+    facets: f32,
+    matte: Rgb,
+    stopped: Rgb,
 }
 
 impl Fill {
@@ -113,65 +131,71 @@ impl Fill {
     pub(super) fn new(point: &StandardPoint, base: &Base, cover: &Cover) -> Self {
         let reflection = Reflection::of(base.ggx);
         let curve = Curve::new(|cos| base.clear.reflectance(cos));
-        let face = Face { curve, between: reflection.between(&curve), is_dark: curve.is_zero() };
-        let is_bent = base.passage == Passage::Bent && base.ggx.is_some();
+        let between = reflection.between(&curve);
+        let face = Face { curve: reflection.seen(&curve), between, is_dark: curve.is_zero() };
+        let is_bent = base.passage == Passage::Bent;
+        let bent = base.ggx.as_ref().filter(|_| is_bent);
         Self {
-            reflection,
             facets: base.ggx.is_some().then(|| facet_fill(base, cover, &reflection, &face)),
             matte: matte_fill(point, base, cover, &reflection, &face),
-            glass: is_bent.then(|| GlassFill::new(base, &reflection)),
+            glass: bent.map(|ggx| GlassFill::new(base, ggx, &reflection)),
             cover: (base.ggx.is_some() && !cover.is_none()).then(|| CoverFill::new(base, cover, &reflection)),
+            reflection,
             face,
         }
     }
 
-    /// The value.
-    pub(super) fn value(&self, cover: &Cover, wo: Vec3, wi: Vec3) -> Rgb {
+    /// The profiles in a direction, on either side.
+    pub(super) fn profiles(&self, cover: &Cover, w: Vec3) -> Profiles {
+        let place = self.reflection.place(w);
+        Profiles {
+            place,
+            cover: cover.passed(Vec3::new(w.x, w.y, w.z.abs())),
+            facets: if self.facets.is_some() { self.reflection.lost(&place) } else { 0.0 },
+            matte: self.matte.as_ref().map_or(Rgb::ZERO, |_| self.face.passed(&self.reflection, &place)),
+            stopped: self.cover.as_ref().map_or(Rgb::ZERO, |cover| cover.profile(&place)),
+        }
+    }
+
+    /// The value for the profiles of both directions.
+    pub(super) fn value(&self, (wo, to): (Vec3, &Profiles), (wi, from): (Vec3, &Profiles)) -> Rgb {
         let is_up = wi.z > 0.0;
-        let passed = cover.passed(wo) * cover.passed(if is_up { wi } else { mirrored_down(wi) });
+        let passed = to.cover * from.cover;
         let mut sum = Rgb::ZERO;
         if let Some(FacetFill { color, mean }) = &self.facets {
-            let profiles = self.reflection.lost(wo) * self.reflection.lost(wi);
-            sum += if is_up { color.up } else { color.down } * (passed * profiles / mean);
+            sum += if is_up { color.up } else { color.down } * (passed * to.facets * from.facets / mean);
         }
         if let Some(matte) = &self.matte {
-            let face = |w: Vec3| self.face.passed(&self.reflection, w);
-            let color = if is_up { matte.up.times_pi(wo, wi) } else { matte.down };
-            sum += matte.share * color * face(wo) * face(wi) * passed / matte.mean;
+            let color = if is_up { matte.sent_up(wo, wi) } else { matte.down };
+            sum += matte.share * color * to.matte * from.matte * passed / matte.mean;
         }
         if let Some(glass) = &self.glass {
-            sum += cover.passed(wo) * glass.times_pi(wo, wi);
+            sum += to.cover * glass.times_pi(glass.lost(&to.place), &from.place, is_up);
         }
-        if let (Some(CoverFill { color, passed, mean }), true) = (&self.cover, is_up) {
-            let stopped = |w: Vec3| self.reflection.stopped(passed, w);
-            sum += *color * (stopped(wo) * stopped(wi) / mean);
+        if let (Some(CoverFill { mean, .. }), true) = (&self.cover, is_up) {
+            sum += to.stopped * from.stopped / *mean;
         }
         sum * (wi.z.abs() * FRAC_1_PI)
     }
 
-    /// What is sent to a viewer in all.
-    pub(super) fn albedo(&self, cover: &Cover, wo: Vec3) -> Sides {
-        let passed = cover.passed(wo);
+    /// What is sent in all to a viewer with these profiles.
+    pub(super) fn albedo(&self, to: &Profiles) -> Sides {
         let mut sum = Sides::default();
         if let Some(FacetFill { color, .. }) = &self.facets {
-            let profile = self.reflection.lost(wo);
-            sum.up += profile * color.up;
-            sum.down += profile * color.down;
+            sum.up += to.facets * color.up;
+            sum.down += to.facets * color.down;
         }
         if let Some(matte) = &self.matte {
-            let profile = matte.share * self.face.passed(&self.reflection, wo);
+            let profile = matte.share * to.matte;
             sum.up += profile * matte.up.color;
             sum.down += profile * matte.down;
         }
         if let Some(glass) = &self.glass {
-            let Sides { up, down } = glass.albedo(wo);
+            let Sides { up, down } = glass.albedo(glass.lost(&to.place));
             sum.up += up;
             sum.down += down;
         }
-        let stopped = self.cover.map_or(Rgb::ZERO, |CoverFill { color, passed, .. }| {
-            self.reflection.stopped(&passed, wo) * color
-        });
-        Sides { up: passed * sum.up + stopped, down: passed * sum.down }
+        Sides { up: to.cover * sum.up + to.stopped, down: to.cover * sum.down }
     }
 
     /// Share of the light along `wo` that walks below the surface, and about its colour when it comes out.
@@ -179,7 +203,7 @@ impl Fill {
         match &self.matte {
             Some(matte) if matte.under > 0.0 => {
                 let share = matte.share * matte.under * cover.passed(wo);
-                (share * self.face.passed(&self.reflection, wo), matte.under_color)
+                (share * self.face.passed(&self.reflection, &self.reflection.place(wo)), matte.under_color)
             }
             _ => (Rgb::ZERO, Rgb::ZERO),
         }
@@ -187,7 +211,7 @@ impl Fill {
 
     /// Share of the light along `wo` that gets through the boundary of clear matter.
     pub(super) fn face_passed(&self, wo: Vec3) -> Rgb {
-        self.face.passed(&self.reflection, wo)
+        self.face.passed(&self.reflection, &self.reflection.place(wo))
     }
 }
 
@@ -199,15 +223,16 @@ fn facet_fill(base: &Base, cover: &Cover, reflection: &Reflection, face: &Face) 
         Passage::Straight => color.up += (1.0 - base.metalness) * face.between,
         Passage::Sheet => {
             color.up += base.matte_share() * face.between;
-            let mean = cosine_mean(&Curve::new(|cos| base.sheet_sides(cos).0));
-            let through = cosine_mean(&Curve::new(|cos| base.sheet_sides(cos).1));
+            let mean = Curve::new(|cos| base.sheet_sides(cos).0).cosine_mean();
+            let through = Curve::new(|cos| base.sheet_sides(cos).1).cosine_mean();
             color.up += base.glass_share() * mean;
             color.down += base.glass_share() * through;
         }
     }
-    let profile = |w: Vec3| Rgb::splat(reflection.lost(w));
-    let mean = covered_mean(cover, reflection, profile, || Rgb::splat(reflection.lost_mean()));
-    FacetFill { color, mean: mean.x.max(f32::MIN_POSITIVE) }
+    let covered =
+        || reflection.mean_around(|w| Rgb::splat(cover.passed(w) * reflection.lost(&reflection.place(w))));
+    let mean = if cover.is_none() { reflection.lost_mean() } else { covered().x };
+    FacetFill { color, mean: mean.max(f32::MIN_POSITIVE) }
 }
 
 fn matte_fill(
@@ -221,31 +246,26 @@ fn matte_fill(
         return None;
     }
     let through = point.diffuse_transmission;
-    let mean =
-        covered_mean(cover, reflection, |w| face.passed(reflection, w), || face.passed_mean(reflection));
+    let passed = |w: Vec3| cover.passed(w) * face.passed(reflection, &reflection.place(w));
+    let mean = reflection.mean_around(passed);
     // Light that walks leaves less to what is matte; where none does, it has the colour of both.
     let (color, under) = if point.walks {
         ((1.0 - point.subsurface) * point.base_color, point.subsurface)
     } else {
         (point.base_color.lerp(point.subsurface_color, point.subsurface), 0.0)
     };
+    let up = Matte { color: (1.0 - through) * color, roughness: point.diffuse_roughness };
+    let is_bare = face.is_dark && cover.is_none();
+    let along = |cos: f32| passed(Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos));
+    let balance = (up.roughness > 0.0 && !is_bare).then(|| Box::new(Balance::new(&up, along)));
     // Under a mirror there is no light to scale.
     (mean.max_element() > error_bound::TABLE_ERROR).then_some(MatteFill {
         share: base.matte_share(),
-        up: Matte { color: (1.0 - through) * color, roughness: point.diffuse_roughness },
+        up,
+        balance,
         down: (1.0 - under) * through * point.diffuse_transmission_color,
         under,
         under_color: point.subsurface_color,
         mean: mean.max(Rgb::splat(error_bound::TABLE_ERROR)),
     })
-}
-
-/// The mean over the hemisphere of a profile times what the cover lets pass; `bare` is that without cover.
-fn covered_mean(
-    cover: &Cover,
-    reflection: &Reflection,
-    profile: impl Fn(Vec3) -> Rgb,
-    bare: impl Fn() -> Rgb,
-) -> Rgb {
-    if cover.is_none() { bare() } else { reflection.mean_around(|w| cover.passed(w) * profile(w)) }
 }

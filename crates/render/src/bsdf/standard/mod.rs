@@ -5,6 +5,7 @@
 //! the way in and on the way out, and parts that send light anywhere send the product, scaled to keep what is due. Seen from
 //! inside a solid body, cover and matte side of the cover do not exist.
 
+mod balance;
 mod base;
 mod cover;
 mod fill;
@@ -22,7 +23,7 @@ use heliostat_scene::Rgb;
 use view::View;
 
 /// The physically based surface at one point, for any viewer on one of its sides.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct StandardBsdf {
     cover: Cover,
     base: Base,

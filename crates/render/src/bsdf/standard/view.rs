@@ -2,9 +2,9 @@
 
 use super::StandardBsdf;
 use super::base::Passage;
-use super::fill::Sides;
-use crate::bsdf::fresnel::refraction;
-use crate::bsdf::glass::{Bend, refract, sample_bend};
+use super::fill::{Profiles, Sides};
+use crate::bsdf::ggx::Ggx;
+use crate::bsdf::glass::{Bend, bent};
 use crate::bsdf::reflect::{Facet, mirrored, mirrored_down, sample_facet};
 use crate::bsdf::{BsdfSample, Event};
 use glam::{Vec2, Vec3};
@@ -18,10 +18,8 @@ pub(crate) enum Way {
     Coat,
     /// Anywhere above: fibres have no lobe.
     Fibres,
-    /// Reflected by facets of the base.
-    Reflected,
-    /// Through the base.
-    Passed,
+    /// Reflected by facets of the base, or through them.
+    Facets,
     /// By the cosine above.
     Up,
     /// By the cosine below.
@@ -30,14 +28,15 @@ pub(crate) enum Way {
     Under,
 }
 
-pub(crate) const WAYS: [Way; 7] =
-    [Way::Coat, Way::Fibres, Way::Reflected, Way::Passed, Way::Up, Way::Down, Way::Under];
+pub(crate) const WAYS: [Way; 6] = [Way::Coat, Way::Fibres, Way::Facets, Way::Up, Way::Down, Way::Under];
 
 /// A surface and who looks at it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct View<'b> {
     bsdf: &'b StandardBsdf,
     wo: Vec3,
+    /// What is the same for all directions of light.
+    profiles: Profiles,
     /// Share of the light along `wo` that the cover lets pass.
     passed: f32,
     /// Probabilities of [`WAYS`]; they add up to 1, or to 0 for a black surface.
@@ -46,29 +45,29 @@ pub(crate) struct View<'b> {
 
 impl<'b> View<'b> {
     pub(crate) fn new(bsdf: &'b StandardBsdf, wo: Vec3) -> Self {
-        let passed = bsdf.cover.passed(wo);
-        let Sides { up, down } = bsdf.fill.albedo(&bsdf.cover, wo);
-        let coat = bsdf.cover.coat.map_or(0.0, |coat| coat.share(wo));
+        let profiles = bsdf.fill.profiles(&bsdf.cover, wo);
+        let passed = profiles.cover;
+        let Sides { up, down } = bsdf.fill.albedo(&profiles);
+        let coat = bsdf.cover.coat.as_ref().map_or(0.0, |coat| coat.kept(wo));
         let fibres = bsdf.cover.fibres.map_or(0.0, |fibres| bsdf.cover.coat_passed(wo) * fibres.kept(wo));
-        let reflected = passed * bright(bsdf.reflected_about(wo));
-        let through = passed * bright(bsdf.passed_about(wo));
+        let facets = passed * bright(bsdf.reflected_about(wo) + bsdf.passed_about(wo));
         let under = bright(bsdf.fill.under(&bsdf.cover, wo).0);
-        let weights = [coat, fibres, reflected, through, bright(up), bright(down), under];
+        let weights = [coat, fibres, facets, bright(up), bright(down), under];
         let sum: f32 = weights.iter().sum();
         let shares = if sum > 0.0 { weights.map(|weight| weight / sum) } else { [0.0; WAYS.len()] };
-        Self { bsdf, wo, passed, shares }
+        Self { bsdf, wo, profiles, passed, shares }
     }
 
     /// Whether light is scattered into more than a few directions.
     pub(crate) fn scatters(&self) -> bool {
         let StandardBsdf { cover, base, fill } = self.bsdf;
         let is_rough = base.ggx.is_some() || cover.fibres.is_some();
-        is_rough || cover.coat.is_some_and(|coat| coat.ggx.is_some()) || !fill.is_empty()
+        is_rough || cover.coat.as_ref().is_some_and(|coat| coat.ggx.is_some()) || !fill.is_empty()
     }
 
     /// Whether anything from below is drawn.
     pub(crate) fn is_open(&self) -> bool {
-        self.share(Way::Passed) > 0.0 || self.share(Way::Down) > 0.0
+        self.bsdf.base.passage != Passage::Closed || self.share(Way::Down) > 0.0
     }
 
     /// The share of the light that goes through without a bend.
@@ -83,9 +82,9 @@ impl<'b> View<'b> {
     /// About the share of light from all around that goes to the viewer.
     pub(crate) fn albedo(&self) -> Rgb {
         let (StandardBsdf { cover, base, fill }, wo) = (self.bsdf, self.wo);
-        let coat = cover.coat.map_or(0.0, |coat| coat.share(wo));
+        let coat = cover.coat.as_ref().map_or(0.0, |coat| coat.kept(wo));
         let fibres = cover.fibres.map_or(Rgb::ZERO, |fibres| cover.coat_passed(wo) * fibres.albedo(wo));
-        let Sides { up, down } = fill.albedo(cover, wo);
+        let Sides { up, down } = fill.albedo(&self.profiles);
         let facets = self.passed * (base.reflected(wo.z) + base.passed(wo.z));
         let (under, color) = fill.under(cover, self.wo);
         (facets + fibres + up + down + under * color + coat).min(Rgb::ONE)
@@ -109,7 +108,8 @@ impl<'b> View<'b> {
     fn answer_above(&self, wi: Vec3) -> (Rgb, f32) {
         let (bsdf, wo) = (self.bsdf, self.wo);
         let cover = &bsdf.cover;
-        let mut value = bsdf.fill.value(cover, wo, wi);
+        let profiles = bsdf.fill.profiles(cover, wi);
+        let mut value = bsdf.fill.value((wo, &self.profiles), (wi, &profiles));
         let mut pdf = self.share(Way::Up) * warp::cosine_hemisphere_pdf(wi);
         if let Some(coat) = &cover.coat {
             value += Rgb::splat(coat.value(wo, wi));
@@ -120,40 +120,86 @@ impl<'b> View<'b> {
             pdf += self.share(Way::Fibres) * warp::hemisphere_pdf(wi);
         }
         if let (Some(ggx), Some(facet)) = (&bsdf.base.ggx, Facet::between(wo, wi)) {
-            let passed = self.passed.min(cover.passed(wi));
-            value += passed * facet.value(ggx, wo, wi) * bsdf.base.reflected(facet.cos);
-            pdf += self.share(Way::Reflected) * facet.pdf(ggx, wo);
+            let passed = self.passed.min(profiles.cover);
+            let split = self.split(facet.cos);
+            value += passed * facet.value(ggx, wo, wi) * split.reflected;
+            pdf += self.share(Way::Facets) * split.chance * self.facet_pdf(ggx, &facet);
         }
         (value, pdf)
     }
 
     fn answer_below(&self, wi: Vec3) -> (Rgb, f32) {
         let (bsdf, wo) = (self.bsdf, self.wo);
-        let mut value = bsdf.fill.value(&bsdf.cover, wo, wi);
+        let profiles = bsdf.fill.profiles(&bsdf.cover, wi);
+        let mut value = bsdf.fill.value((wo, &self.profiles), (wi, &profiles));
         let mut pdf = self.share(Way::Down) * warp::cosine_hemisphere_pdf(-wi);
         let Some(ggx) = &bsdf.base.ggx else { return (value, pdf) };
-        let share = self.share(Way::Passed);
+        let share = self.share(Way::Facets);
         match bsdf.base.passage {
             Passage::Closed | Passage::Straight => {}
             Passage::Sheet => {
                 let above = mirrored_down(wi);
                 if let Some(facet) = Facet::between(wo, above) {
-                    let passed = self.passed.min(bsdf.cover.passed(above));
-                    value += passed * facet.value(ggx, wo, above) * bsdf.base.passed(facet.cos);
-                    pdf += share * facet.pdf(ggx, wo);
+                    let passed = self.passed.min(profiles.cover);
+                    let split = self.split(facet.cos);
+                    value += passed * facet.value(ggx, wo, above) * split.passed;
+                    pdf += share * (1.0 - split.chance) * self.facet_pdf(ggx, &facet);
                 }
             }
             Passage::Bent => {
                 for (eta, color) in bsdf.base.clear.rays() {
                     if let Some(bend) = Bend::between(wo, wi, eta) {
-                        let through = color * bsdf.base.passed(bend.cos);
-                        value += self.passed * bend.value(ggx, wo, wi) * through;
-                        pdf += share * bsdf.base.clear.ray_share() * bend.pdf(ggx, wo);
+                        let split = self.split(bend.cos);
+                        value += self.passed * bend.value(ggx, wo, wi) * color * split.passed;
+                        let ray_share = (1.0 - split.chance) * bsdf.base.clear.ray_share();
+                        pdf += share * ray_share * bend.pdf(ggx, wo);
                     }
                 }
             }
         }
         (value, pdf)
+    }
+
+    /// What a facet at an angle of cosine `cos` to the viewer does.
+    fn split(&self, cos: f32) -> Split {
+        let base = &self.bsdf.base;
+        match base.passage {
+            Passage::Closed => Split { reflected: base.reflected(cos), passed: Rgb::ZERO, chance: 1.0 },
+            Passage::Straight => {
+                // What goes straight knows no facets.
+                let (about, passed) = (self.bsdf.reflected_about(self.wo), self.bsdf.smooth_passed(self.wo));
+                Split { chance: chance(about, passed), reflected: base.reflected(cos), passed }
+            }
+            Passage::Bent | Passage::Sheet => {
+                let (reflected, passed) = base.split(cos);
+                Split { reflected, passed, chance: chance(reflected, passed) }
+            }
+        }
+    }
+
+    /// A facet by two numbers in `[0, 1)`. Where all of its light is reflected, most of those are left out that reflect below
+    /// the surface.
+    fn facet(&self, at: Vec2) -> Vec3 {
+        let base = &self.bsdf.base;
+        match &base.ggx {
+            None => Vec3::Z,
+            Some(ggx) if base.passage == Passage::Bent => ggx.visible(self.wo, at),
+            Some(ggx) => ggx.visible_reflecting(self.wo, at),
+        }
+    }
+
+    /// Density with which [`Self::facet`] leads to the direction that a facet mirrors.
+    fn facet_pdf(&self, ggx: &Ggx, facet: &Facet) -> f32 {
+        match self.bsdf.base.passage {
+            Passage::Bent => facet.seen_pdf(ggx, self.wo),
+            _ => facet.pdf(ggx, self.wo),
+        }
+    }
+
+    /// Probability with which the facet of these numbers reflects.
+    #[cfg(test)]
+    pub(crate) fn reflect_chance(&self, at: Vec2) -> f32 {
+        self.split(self.wo.dot(self.facet(at)).clamp(0.0, 1.0)).chance
     }
 
     /// Draws a direction: `u.z` says which way, the rest where; `None` where the numbers lead nowhere, for which light is 0.
@@ -176,23 +222,16 @@ impl<'b> View<'b> {
                 let coat = bsdf.cover.coat.as_ref()?;
                 let local = coat.local(wo);
                 let Some(ggx) = &coat.ggx else {
-                    let weight = Rgb::splat(coat.smooth(wo));
+                    let weight = Rgb::splat(coat.kept(wo));
                     return self.delta(way, coat.world(mirrored(local)), weight, Event::Glossy);
                 };
                 let wi = coat.world(sample_facet(ggx, local, at)?);
                 ((wi.z > 0.0).then_some(wi)?, Event::Glossy)
             }
             Way::Fibres => (warp::square_to_hemisphere(at), Event::Diffuse),
-            Way::Reflected => match &bsdf.base.ggx {
-                Some(ggx) => (sample_facet(ggx, wo, at)?, Event::Glossy),
-                None => {
-                    let weight = self.passed * bsdf.base.reflected(wo.z.min(1.0));
-                    return self.delta(way, mirrored(wo), weight, Event::Glossy);
-                }
-            },
-            Way::Passed => match self.sample_through(at, rest)? {
-                Through::Rough(wi) => (wi, Event::Transmission),
-                Through::Smooth(wi, weight) => return self.delta(way, wi, weight, Event::Transmission),
+            Way::Facets => match self.draw_facet(rest, at)? {
+                Facing::Rough(wi, event) => (wi, event),
+                Facing::Smooth(sample) => return sample,
             },
             Way::Up => (warp::square_to_cosine_hemisphere(at), Event::Diffuse),
             Way::Under => {
@@ -206,22 +245,45 @@ impl<'b> View<'b> {
         (pdf > 0.0).then(|| BsdfSample { wi, weight: value / pdf, pdf, event })
     }
 
-    fn sample_through(&self, at: Vec2, rest: f32) -> Option<Through> {
+    /// Draws a facet, then whether it reflects, in proportion to what it reflects and lets through.
+    ///
+    /// # Source
+    /// Walter et al., "Microfacet Models for Refraction through Rough Surfaces", 2007, section 5.3.
+    fn draw_facet(&self, rest: f32, at: Vec2) -> Option<Facing> {
         let (base, wo) = (&self.bsdf.base, self.wo);
-        let cos = wo.z.min(1.0);
+        let h = self.facet(at);
+        let cos = wo.dot(h).clamp(0.0, 1.0);
+        let Split { reflected, passed, chance } = self.split(cos);
+        let mirrored = (2.0 * wo.dot(h) * h - wo).normalize_or_zero();
+        if rest < chance {
+            return Some(match base.ggx {
+                Some(_) => Facing::Rough((mirrored.z > 0.0).then_some(mirrored)?, Event::Glossy),
+                None => Facing::Smooth(self.delta(
+                    Way::Facets,
+                    mirrored,
+                    self.passed * reflected / chance,
+                    Event::Glossy,
+                )),
+            });
+        }
+        let is_smooth = base.ggx.is_none() || base.passage == Passage::Straight;
         if base.passage == Passage::Sheet {
-            let Some(ggx) = &base.ggx else {
-                return Some(Through::Smooth(-wo, self.passed * base.passed(cos)));
-            };
-            return sample_facet(ggx, wo, at).map(|wi| Through::Rough(mirrored_down(wi)));
+            let weight = self.passed * passed / (1.0 - chance);
+            return Some(match base.ggx {
+                Some(_) => {
+                    Facing::Rough(mirrored_down((mirrored.z > 0.0).then_some(mirrored)?), Event::Transmission)
+                }
+                None => Facing::Smooth(self.delta(Way::Facets, -wo, weight, Event::Transmission)),
+            });
         }
-        let (eta, color) = base.clear.ray(rest);
-        if let (Some(ggx), Passage::Bent) = (&base.ggx, base.passage) {
-            return sample_bend(ggx, wo, eta, at).map(Through::Rough);
+        let (eta, color) = base.clear.ray(((rest - chance) / (1.0 - chance)).min(1.0 - f32::EPSILON));
+        let (h, cos) = if is_smooth { (Vec3::Z, wo.z.min(1.0)) } else { (h, cos) };
+        let wi = bent(wo, h, cos, eta)?;
+        if !is_smooth {
+            return Some(Facing::Rough(wi, Event::Transmission));
         }
-        let weight = self.passed * color * self.bsdf.smooth_passed(wo) / base.clear.ray_share();
-        let wi = refract(wo, Vec3::Z, cos, refraction(cos, eta).cos, eta).normalize_or_zero();
-        (wi.z < 0.0).then_some(Through::Smooth(wi, weight))
+        let weight = self.passed * color * passed / ((1.0 - chance) * base.clear.ray_share());
+        Some(Facing::Smooth(self.delta(Way::Facets, wi, weight, Event::Transmission)))
     }
 
     /// A direction that is the only one of its way.
@@ -247,11 +309,27 @@ impl<'b> View<'b> {
     }
 }
 
-/// A direction through the surface.
-enum Through {
-    Rough(Vec3),
-    /// The only one, with its weight.
-    Smooth(Vec3, Rgb),
+/// What facets of one slope do with light.
+#[derive(Clone, Copy, Debug)]
+struct Split {
+    reflected: Rgb,
+    passed: Rgb,
+    /// Probability with which a draw is reflected.
+    chance: f32,
+}
+
+/// What a draw from facets is.
+enum Facing {
+    /// A direction, with a density.
+    Rough(Vec3, Event),
+    /// The only direction of a mirror or of clear glass.
+    Smooth(Option<BsdfSample>),
+}
+
+/// Probability of reflection where so much is reflected and so much passes.
+fn chance(reflected: Rgb, passed: Rgb) -> f32 {
+    let (reflected, passed) = (bright(reflected), bright(passed));
+    if passed > 0.0 { reflected / (reflected + passed) } else { 1.0 }
 }
 
 /// The mean of the channels.

@@ -1,11 +1,21 @@
-//! Tables of how much light lobes send back: integrals without a formula, worked out at first use.
+//! Tables of how much light lobes send back: integrals without a formula.
+//!
+//! They are stored as values at Chebyshev's nodes, and what a surface needs of them is put together once: series over the
+//! cosine, which are summed wherever a direction is asked for.
 
-mod anisotropic;
 mod axis;
+mod chebyshev;
+mod curve;
 mod interface;
+#[cfg(test)]
+mod make;
+mod profile;
 mod reflection;
 mod sheen;
+mod stored;
 
-pub(crate) use interface::{Interface, Loss};
-pub(crate) use reflection::{Curve, Reflection, cosine_mean};
-pub(crate) use sheen::{sheen_albedo, sheen_scale};
+pub(crate) use curve::{Curve, lean_means};
+pub(crate) use interface::interface;
+pub(crate) use profile::{EvenProfile, Profile, hemisphere_mean};
+pub(crate) use reflection::{CurveSeen, Place, Reflection};
+pub(crate) use sheen::SheenAlbedo;

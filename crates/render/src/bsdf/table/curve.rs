@@ -1,0 +1,44 @@
+//! Reflectances over the angle.
+
+use super::chebyshev::{cosine_weights, nodes, weights};
+use super::stored::{CURVE, LEAN};
+use heliostat_scene::Rgb;
+
+/// A reflectance at Chebyshev's nodes of the cosine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Curve([Rgb; CURVE]);
+
+impl Curve {
+    /// Of a reflectance over the cosine.
+    pub(crate) fn new(reflectance: impl Fn(f32) -> Rgb) -> Self {
+        Self(const { nodes::<CURVE>() }.map(reflectance))
+    }
+
+    /// Whether it is 0 at every angle.
+    pub(crate) fn is_zero(&self) -> bool {
+        self.0 == [Rgb::ZERO; CURVE]
+    }
+
+    /// The mean with these weights of the nodes.
+    pub(crate) fn sum(&self, weights: &[f32]) -> Rgb {
+        self.0.iter().zip(weights).map(|(&value, &weight)| value * weight).sum()
+    }
+
+    /// The mean over the hemisphere, weighted by the cosine.
+    pub(crate) fn cosine_mean(&self) -> Rgb {
+        self.sum(&const { cosine_weights::<CURVE>() }).max(Rgb::ZERO)
+    }
+}
+
+/// Weights by which a curve's nodes give its value at a cosine.
+pub(crate) fn curve_weights(cos: f32) -> [f32; CURVE] {
+    weights(cos.clamp(0.0, 1.0))
+}
+
+/// The mean over the hemisphere, weighted by the cosine, of a curve times how light leans
+/// ([`lean`](crate::bsdf::diffuse::lean)), for a viewer at a node of [`EvenProfile`](super::EvenProfile).
+pub(crate) fn lean_means(node: usize, curve: &Curve) -> Rgb {
+    let mut weights = [0.0; CURVE];
+    LEAN.add(node * CURVE, 1.0, &mut weights);
+    curve.sum(&weights)
+}

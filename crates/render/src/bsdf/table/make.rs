@@ -1,0 +1,213 @@
+//! Makes the tables: integrals over the facets that a viewer sees, by brute force.
+//!
+//! Tests make some numbers anew and compare; with `HELIOSTAT_DEEP` all of them, and with `HELIOSTAT_MAKE_TABLES` the file is
+//! written (`cargo xtask assets`).
+
+use super::axis::{axis_index, axis_width, curve_width, grazing_cos};
+use super::chebyshev::{nodes, weights};
+use super::curve::curve_weights;
+use super::profile::even_cos;
+use super::stored::{
+    ANGLES, COS, COUNT, CURVE, DRAWN_OUT, FIBRES, FINE_WIDTH, GLASS, INDEX, LEAN, LOST, LOWER, LOWERS, SHEEN,
+    STRENGTH, TURN, Table, WIDTH,
+};
+use crate::bsdf::diffuse::lean;
+use crate::bsdf::fresnel::refraction;
+use crate::bsdf::ggx::Ggx;
+use crate::bsdf::glass::refract;
+use crate::bsdf::quadrature::gauss_legendre;
+use crate::bsdf::sheen::{Sheen, axis_roughness};
+use glam::{Vec2, Vec3};
+use heliostat_geometry::error_bound;
+use rayon::prelude::*;
+use std::f64::consts::PI;
+
+/// Nodes of the integrals over facets, around the normal (half of them where both halves are alike) and away from it, in
+/// pieces: kinks are worth more pieces, not higher degrees.
+const TURNS: usize = 96;
+const PIECES: usize = 12;
+const CAPS: usize = 16;
+
+/// A row of a table: all numbers at one place on all axes but the last.
+type Row = Box<dyn Fn() -> Vec<f32> + Sync + Send>;
+
+/// All rows, each with its place among the numbers.
+fn rows() -> Vec<(usize, Row)> {
+    let mut rows: Vec<(usize, Row)> = Vec::new();
+    let mut add = |table: Table, len: usize, k: usize, row: Row| rows.push((table.start() + k * len, row));
+    let width = |w: usize| axis_width(nodes::<WIDTH>()[w]);
+    let steep = |c: usize, alpha: f32| grazing_cos(nodes::<COS>()[c], alpha);
+    for (k, (w, c)) in pairs(WIDTH, COS).enumerate() {
+        let (alpha, cos) = (width(w), steep(c, width(w)));
+        add(LOST, 1, k, Box::new(move || vec![lost(&Ggx::isotropic(alpha), facing(cos, 0.0))]));
+        add(LOWERS, LOWER, k, Box::new(move || lower(cos, alpha)));
+        for side in 0..2 {
+            for i in 0..INDEX[side] {
+                let x = if side == 0 { nodes::<{ INDEX[0] }>()[i] } else { nodes::<{ INDEX[1] }>()[i] };
+                let eta = if side == 0 { axis_index(x) } else { 1.0 / axis_index(x) };
+                let row: Row = Box::new(move || glass(cos, alpha, eta));
+                add(GLASS[side], 1 + CURVE, i * WIDTH * COS + k, row);
+            }
+        }
+    }
+    for (k, (w, c)) in pairs(FINE_WIDTH, COS).enumerate() {
+        let alpha = axis_width(nodes::<FINE_WIDTH>()[w]);
+        let cos = grazing_cos(nodes::<COS>()[c], curve_width(alpha));
+        add(ANGLES, CURVE, k, Box::new(move || angles(cos, alpha)));
+    }
+    for (k, (w, s)) in pairs(WIDTH, STRENGTH).enumerate() {
+        for (l, (t, c)) in pairs(TURN, COS).enumerate() {
+            let ggx = Ggx::stretched_by(width(w), nodes::<STRENGTH>()[s]);
+            let along = ggx.along(nodes::<TURN>()[t]);
+            let cos = steep(c, ggx.width_along(along.extend(0.0)));
+            let row: Row = Box::new(move || vec![lost(&ggx, facing(cos, along.to_angle()))]);
+            add(DRAWN_OUT, 1, k * TURN * COS + l, row);
+        }
+    }
+    for (k, (r, c)) in pairs(FIBRES, COS).enumerate() {
+        let (roughness, cos) = (axis_roughness(nodes::<FIBRES>()[r]), nodes::<COS>()[c].powi(2));
+        add(SHEEN, 1, k, Box::new(move || vec![sheen(&Sheen::new(roughness), cos)]));
+    }
+    for c in 0..COS {
+        add(LEAN, CURVE, c, Box::new(move || leaning(even_cos(c))));
+    }
+    rows
+}
+
+fn pairs(a: usize, b: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..a * b).map(move |k| (k / b, k % b))
+}
+
+fn facing(cos: f32, angle: f32) -> Vec3 {
+    ((1.0 - cos * cos).max(0.0).sqrt() * Vec2::from_angle(angle)).extend(cos)
+}
+
+/// Numbers in the unit square with weights that add up to 1.
+fn square() -> impl Iterator<Item = (Vec2, f64)> {
+    let caps = gauss_legendre::<CAPS>();
+    (0..PIECES * CAPS * TURNS).map(move |k| {
+        let (piece, cap, turn) = (k / (CAPS * TURNS), k / TURNS % CAPS, k % TURNS);
+        let y = (piece as f32 + caps[cap].0) / PIECES as f32;
+        let weight = f64::from(caps[cap].1) / (PIECES * TURNS) as f64;
+        (Vec2::new((turn as f32 + 0.5) / TURNS as f32, y), weight)
+    })
+}
+
+/// Share of the light that facets which reflect all keep at first.
+fn lost(ggx: &Ggx, wo: Vec3) -> f32 {
+    square().map(|(u, weight)| weight * f64::from(reflected(ggx, wo, u).2)).sum::<f64>() as f32
+}
+
+/// A facet by two numbers: cosine to the viewer, the direction that it reflects to him, and the share that it keeps.
+fn reflected(ggx: &Ggx, wo: Vec3, u: Vec2) -> (f32, Vec3, f32) {
+    let h = ggx.visible_reflecting(wo, u);
+    let wi = 2.0 * wo.dot(h) * h - wo;
+    let hidden = if wi.z > 0.0 { ggx.hidden_reflecting(wo, wi) } else { 1.0 };
+    (wo.dot(h).clamp(0.0, 1.0), wi, hidden)
+}
+
+fn angles(cos: f32, alpha: f32) -> Vec<f32> {
+    let (ggx, wo) = (Ggx::isotropic(alpha), facing(cos, 0.0));
+    let mut sums = [0.0_f64; CURVE];
+    for (u, weight) in square() {
+        let (cos, _, hidden) = reflected(&ggx, wo, u);
+        for (sum, node) in sums.iter_mut().zip(curve_weights(cos)) {
+            *sum += weight * f64::from((1.0 - hidden) * node);
+        }
+    }
+    let all: f64 = sums.iter().sum();
+    sums.map(|sum| (sum / all) as f32).to_vec()
+}
+
+/// Weights of what is 0 at the viewer's cosine and smooth from there to the horizon, in light from lower than the viewer.
+fn lower(cos: f32, alpha: f32) -> Vec<f32> {
+    let (ggx, wo) = (Ggx::isotropic(alpha), facing(cos, 0.0));
+    let mut sums = [0.0_f64; LOWER];
+    for (u, weight) in square() {
+        let (_, wi, hidden) = reflected(&ggx, wo, u);
+        if wi.z > 0.0 && wi.z < cos {
+            let lower = 1.0 - wi.z / cos;
+            let parts = weights::<LOWER>(lower).into_iter().zip(nodes::<LOWER>());
+            for (sum, (part, node)) in sums.iter_mut().zip(parts) {
+                *sum += weight * f64::from((1.0 - hidden) * part * lower / node);
+            }
+        }
+    }
+    sums.map(|sum| sum as f32).to_vec()
+}
+
+fn glass(cos: f32, alpha: f32, eta: f32) -> Vec<f32> {
+    let (ggx, wo) = (Ggx::isotropic(alpha), facing(cos, 0.0));
+    let mut sums = [0.0_f64; 1 + CURVE];
+    for (u, weight) in square() {
+        let h = ggx.visible(wo, u);
+        let cos = wo.dot(h).clamp(0.0, 1.0);
+        let mirrored = 2.0 * cos * h - wo;
+        let kept = if mirrored.z > 0.0 { ggx.hidden(wo, mirrored) } else { 1.0 };
+        let other = refraction(cos, eta).cos;
+        if other == 0.0 {
+            sums[0] += weight * f64::from(kept);
+            continue;
+        }
+        let bent = refract(wo, h, cos, other, eta);
+        let stopped = if bent.z < 0.0 { ggx.hidden(wo, bent) } else { 1.0 };
+        sums[0] += weight * f64::from(stopped);
+        for (sum, node) in sums[1..].iter_mut().zip(curve_weights(if eta < 1.0 { other } else { cos })) {
+            *sum += weight * f64::from((kept - stopped) * node);
+        }
+    }
+    sums.map(|sum| sum as f32).to_vec()
+}
+
+fn sheen(sheen: &Sheen, cos: f32) -> f32 {
+    let wo = facing(cos, 0.0);
+    let mut sum = 0.0;
+    for (u, weight) in square() {
+        // Nodes crowd where the angle is grazing: the cosine is the square.
+        let wi = facing(u.y * u.y, std::f32::consts::TAU * u.x);
+        sum += weight * 4.0 * PI * f64::from(u.y * sheen.single(wo, wi));
+    }
+    sum as f32
+}
+
+fn leaning(cos: f32) -> Vec<f32> {
+    let wo = facing(cos, 0.0);
+    let mut sums = [0.0_f64; CURVE];
+    for (u, weight) in square() {
+        let wi = facing(u.y.sqrt(), std::f32::consts::TAU * u.x);
+        for (sum, node) in sums.iter_mut().zip(curve_weights(wi.z)) {
+            *sum += weight * f64::from(lean(wo, wi) * node);
+        }
+    }
+    sums.map(|sum| sum as f32).to_vec()
+}
+
+#[test]
+fn bsdf_tables_are_what_they_are_made_from() {
+    let step = if std::env::var_os("HELIOSTAT_DEEP").is_some() { 1 } else { 97 };
+    let rows: Vec<_> = rows().into_iter().step_by(step).collect();
+    rows.par_iter().for_each(|(start, row)| {
+        let whole = Table::ALL.from(*start);
+        for (k, (made, stored)) in row().into_iter().zip(whole).enumerate() {
+            assert!(
+                (made - stored).abs() < 0.02 * error_bound::TABLE_ERROR,
+                "{start} + {k}: {stored}, and made anew {made}"
+            );
+        }
+    });
+}
+
+#[test]
+fn bsdf_tables_are_written() {
+    if std::env::var_os("HELIOSTAT_MAKE_TABLES").is_none() {
+        return;
+    }
+    let mut numbers = vec![0.0_f32; COUNT];
+    let made: Vec<(usize, Vec<f32>)> = rows().par_iter().map(|(start, row)| (*start, row())).collect();
+    for (start, row) in made {
+        numbers[start..start + row.len()].copy_from_slice(&row);
+    }
+    let bytes: Vec<u8> = numbers.iter().flat_map(|number| number.to_le_bytes()).collect();
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/bsdf/table/tables.f32");
+    std::fs::write(path, bytes).unwrap();
+}

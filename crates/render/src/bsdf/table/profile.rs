@@ -1,0 +1,137 @@
+//! What depends on one direction at a rough surface.
+
+use super::axis::{curve_width, grazing_axis, grazing_cos};
+use super::chebyshev::{Value, nodes, series, sum};
+use super::stored::{COS, TURN};
+use crate::bsdf::ggx::Ggx;
+use crate::bsdf::quadrature::gauss_legendre;
+use glam::{Vec2, Vec3};
+
+/// A function of a direction, as series over the cosine and, where highlights are drawn out, over the turn.
+#[derive(Clone, Debug)]
+pub(crate) struct Profile<V> {
+    mean: [V; COS],
+    /// Coefficients of higher degree over the turn.
+    turned: Option<Box<[[V; COS]; TURN - 1]>>,
+}
+
+/// Where a direction lies on the axes of a [`Profile`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spot {
+    x: f32,
+    turn: f32,
+}
+
+impl Spot {
+    /// `width` is that of the axis of grazing angles.
+    pub(crate) fn new(ggx: Option<&Ggx>, width: f32, w: Vec3) -> Self {
+        let turn = ggx.filter(|ggx| !ggx.is_isotropic()).map_or(0.0, |ggx| ggx.turn_of(w));
+        Self { x: grazing_axis(w.z.abs().min(1.0), width), turn }
+    }
+}
+
+impl<V: Value> Profile<V> {
+    /// Of a function of the direction and the numbers of its nodes, by turn and cosine; `width` is that of the axis.
+    pub(crate) fn new(
+        ggx: Option<&Ggx>,
+        width: impl Fn(Vec3) -> f32,
+        value: impl Fn(Vec3, [usize; 2]) -> V,
+    ) -> Self {
+        let drawn_out = ggx.filter(|ggx| !ggx.is_isotropic());
+        let row = |turn: usize| {
+            let along = drawn_out.map_or(Vec2::X, |ggx| ggx.along(const { nodes::<TURN>() }[turn]));
+            let width = width(along.extend(0.0));
+            series(&std::array::from_fn(|c| value(node_direction(along, c, width), [turn, c])))
+        };
+        if drawn_out.is_none() {
+            return Self { mean: row(0), turned: None };
+        }
+        let rows: [[V; COS]; TURN] = std::array::from_fn(row);
+        let columns: [[V; TURN]; COS] =
+            std::array::from_fn(|c| series(&std::array::from_fn(|turn| rows[turn][c])));
+        let turned = std::array::from_fn(|j| std::array::from_fn(|c| columns[c][j + 1]));
+        Self { mean: columns.map(|column| column[0]), turned: Some(Box::new(turned)) }
+    }
+
+    /// The value at a direction.
+    #[inline]
+    pub(crate) fn at(&self, spot: Spot) -> V {
+        match &self.turned {
+            None => sum(&self.mean, spot.x),
+            Some(turned) => self.turned_at(turned, spot),
+        }
+    }
+
+    #[inline(never)]
+    fn turned_at(&self, turned: &[[V; COS]; TURN - 1], spot: Spot) -> V {
+        let column = |c: usize| {
+            let coefficients: [V; TURN] =
+                std::array::from_fn(|j| if j == 0 { self.mean[c] } else { turned[j - 1][c] });
+            sum(&coefficients, spot.turn)
+        };
+        sum(&std::array::from_fn::<V, COS, _>(column), spot.x)
+    }
+}
+
+/// A function of the cosine that changes over tenths.
+#[derive(Clone, Debug)]
+pub(crate) struct EvenProfile<V>([V; COS]);
+
+impl<V: Value> EvenProfile<V> {
+    /// Of a function of the cosine and the number of its node.
+    pub(crate) fn new(value: impl Fn(f32, usize) -> V) -> Self {
+        Self(series(&std::array::from_fn(|node| value(even_cos(node), node))))
+    }
+
+    /// The value at a cosine.
+    pub(crate) fn at(&self, cos: f32) -> V {
+        sum(&self.0, grazing_axis(cos.min(1.0), curve_width(0.0)))
+    }
+}
+
+/// The cosine at a node of [`EvenProfile`].
+pub(super) fn even_cos(node: usize) -> f32 {
+    grazing_cos(const { nodes::<COS>() }[node], curve_width(0.0))
+}
+
+/// The direction above `along` at a node of the axis of grazing angles.
+fn node_direction(along: Vec2, node: usize, width: f32) -> Vec3 {
+    raised(along, grazing_cos(const { nodes::<COS>() }[node], width))
+}
+
+/// The unit direction above `along` at a cosine.
+fn raised(along: Vec2, cos: f32) -> Vec3 {
+    ((1.0 - cos * cos).max(0.0).sqrt() * along).extend(cos)
+}
+
+/// Nodes of means over the cosine, and over the turn.
+const HEIGHTS: usize = 32;
+const AROUND: usize = 8;
+
+/// The mean over the hemisphere, weighted by the cosine, of a function of the direction that depends on the turn as facets do.
+///
+/// Nodes lie evenly over the logarithm of cosines above `width`, so that what narrow highlights do and what happens over
+/// tenths is seen alike.
+pub(crate) fn hemisphere_mean<V: Value>(
+    ggx: Option<&Ggx>,
+    width: impl Fn(Vec3) -> f32,
+    value: impl Fn(Vec3) -> V,
+) -> V {
+    let drawn_out = ggx.filter(|ggx| !ggx.is_isotropic());
+    let count = if drawn_out.is_some() { AROUND } else { 1 };
+    let mut sum = V::default();
+    for turn in 0..count {
+        let along = drawn_out.map_or(Vec2::X, |ggx| {
+            let angle = std::f32::consts::FRAC_PI_2 * (turn as f32 + 0.5) / AROUND as f32;
+            Vec2::from_angle(angle).rotate(ggx.tangent())
+        });
+        let width = width(along.extend(0.0));
+        let range = (1.0 / width).ln_1p();
+        for (x, weight) in gauss_legendre::<HEIGHTS>() {
+            let cos = width * (x * range).exp_m1();
+            let area = 2.0 * cos * (cos + width) * range;
+            sum = sum + value(raised(along, cos)) * (weight * area / count as f32);
+        }
+    }
+    sum
+}

@@ -1,0 +1,96 @@
+//! The tables as they are stored, made by `cargo xtask assets`: values at Chebyshev's nodes, the last axis first.
+
+use super::chebyshev::weights;
+
+/// Nodes of the cosine of a direction, of everything.
+pub(crate) const COS: usize = 16;
+/// Nodes of the roughness.
+pub(crate) const WIDTH: usize = 9;
+/// Nodes of the roughness for curves of reflectance: what narrow facets do to them moves with the width.
+pub(crate) const FINE_WIDTH: usize = 17;
+/// Nodes of a curve of reflectance over the cosine.
+pub(crate) const CURVE: usize = 10;
+/// Heights of light lower than the viewer; see [`super::reflection`].
+pub(crate) const LOWER: usize = 8;
+/// Nodes of the index of refraction, seen from the side of the smaller and of the larger one.
+pub(crate) const INDEX: [usize; 2] = [9, 12];
+/// Nodes of the strength by which highlights are drawn out, and of the turn from one tangent to the other.
+pub(crate) const STRENGTH: usize = 7;
+pub(crate) const TURN: usize = 5;
+/// Nodes of the roughness of fibres.
+pub(crate) const FIBRES: usize = 12;
+
+/// A table with numbers at the nodes of its axes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Table {
+    start: usize,
+    len: usize,
+}
+
+const fn after(before: Table, len: usize) -> Table {
+    Table { start: before.start + before.len, len }
+}
+
+/// `[WIDTH][COS]`: share of the light that facets which reflect all keep at first.
+pub(crate) const LOST: Table = Table { start: 0, len: WIDTH * COS };
+/// `[FINE_WIDTH][COS][CURVE]`: weights of a curve's nodes in its mean over the facets whose light gets away.
+pub(crate) const ANGLES: Table = after(LOST, FINE_WIDTH * COS * CURVE);
+/// `[WIDTH][COS][LOWER]`: weights of nodes in light from lower than the viewer.
+pub(crate) const LOWERS: Table = after(ANGLES, WIDTH * COS * LOWER);
+/// `[INDEX][WIDTH][COS][1 + CURVE]`: what facets of glass keep at first, without reflection and by a curve of reflectance.
+pub(crate) const GLASS: [Table; 2] = [
+    after(LOWERS, INDEX[0] * WIDTH * COS * (1 + CURVE)),
+    after(after(LOWERS, INDEX[0] * WIDTH * COS * (1 + CURVE)), INDEX[1] * WIDTH * COS * (1 + CURVE)),
+];
+/// `[WIDTH][STRENGTH][TURN][COS]`: the same share for highlights that are drawn out.
+pub(crate) const DRAWN_OUT: Table = after(GLASS[1], WIDTH * STRENGTH * TURN * COS);
+/// `[FIBRES][COS]`: share of the light that fibres send back.
+pub(crate) const SHEEN: Table = after(DRAWN_OUT, FIBRES * COS);
+/// `[COS][CURVE]`: weights of a curve's nodes in the mean of how light leans at rough matte matter.
+pub(crate) const LEAN: Table = after(SHEEN, COS * CURVE);
+/// How many numbers there are.
+pub(crate) const COUNT: usize = LEAN.start + LEAN.len;
+
+static BYTES: &[u8; 4 * COUNT] = include_bytes!("tables.f32");
+
+impl Table {
+    /// All tables as one.
+    #[cfg(test)]
+    pub(crate) const ALL: Self = Self { start: 0, len: COUNT };
+
+    /// The numbers from one on, in their order.
+    pub(crate) fn from(self, first: usize) -> impl Iterator<Item = f32> {
+        let bytes = &BYTES[4 * (self.start + first)..4 * (self.start + self.len)];
+        bytes.as_chunks().0.iter().map(|bytes| f32::from_le_bytes(*bytes))
+    }
+
+    /// Adds the `weight`-fold of the numbers from one on to those in `sums`.
+    pub(crate) fn add(self, first: usize, weight: f32, sums: &mut [f32]) {
+        for (sum, number) in sums.iter_mut().zip(self.from(first)) {
+            *sum += weight * number;
+        }
+    }
+
+    /// The numbers at a place on the first axis, of `N` nodes: `M` of them, between those of the nodes.
+    pub(crate) fn at<const N: usize, const M: usize>(self, x: f32) -> [f32; M] {
+        let mut sums = [0.0; M];
+        for (k, weight) in weights::<N>(x).into_iter().enumerate() {
+            self.add(k * M, weight, &mut sums);
+        }
+        sums
+    }
+
+    /// All numbers in rows.
+    pub(crate) fn rows<const M: usize>(self) -> impl Iterator<Item = [f32; M]> {
+        (0..self.len / M).map(move |row| {
+            let mut numbers = self.from(row * M);
+            std::array::from_fn(|_| numbers.next().unwrap_or_default())
+        })
+    }
+
+    /// Where it starts.
+    #[cfg(test)]
+    pub(crate) fn start(self) -> usize {
+        self.start
+    }
+}
