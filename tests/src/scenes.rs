@@ -68,12 +68,27 @@ pub fn open(path: &Path, overrides: &[(&str, String)]) -> Result<Source, String>
 /// # Errors
 /// The message of the loader or the renderer.
 pub fn render(path: &Path, size: [u32; 2], samples: u32, seed: u64) -> Result<Frame, String> {
-    let overrides = [
+    render_with(path, size, samples, seed, &[])
+}
+
+/// [`render`] with more settings laid over those of the file.
+///
+/// # Errors
+/// The message of the loader or the renderer.
+pub fn render_with(
+    path: &Path,
+    size: [u32; 2],
+    samples: u32,
+    seed: u64,
+    more: &[(&str, String)],
+) -> Result<Frame, String> {
+    let mut overrides = vec![
         ("render.width", size[0].to_string()),
         ("render.height", size[1].to_string()),
         ("render.samples", samples.to_string()),
         ("render.seed", seed.to_string()),
     ];
+    overrides.extend_from_slice(more);
     let source = open(path, &overrides)?;
     let frame = source.frames().map_or(1, |frames| *frames.start());
     let shot = source.shot(frame).map_err(|e| e.to_string())?;

@@ -69,7 +69,8 @@ impl RayCone {
     /// Tells a hit, after `way` metres of a ray in direction `dir`, what it stands for.
     #[inline]
     pub(crate) fn mark(&self, surface: &mut SurfaceHit, dir: Vec3) {
-        if !self.is_point() {
+        // Where nobody looks at surface parameters, there are none.
+        if !self.is_point() && surface.hit.dpdu != Vec3::ZERO {
             let length = dir.length();
             let width = self.after(surface.hit.t * length).width;
             surface.footprint = footprint(&surface.hit, dir / length, width);

@@ -104,11 +104,13 @@ impl Sampler {
     }
 
     /// A number in `[0, 1)`; stratified over the samples of the pixel.
+    #[inline]
     pub fn next_1d(&mut self) -> f32 {
         self.next_2d().x
     }
 
     /// A point of the unit square `[0, 1)²`; stratified over the samples of the pixel.
+    #[inline]
     pub fn next_2d(&mut self) -> Vec2 {
         let scramble = self.next_scramble();
         scramble.point(scramble.shuffled(self.sample))
@@ -131,6 +133,7 @@ impl Sampler {
     /// What a branch draws does not move the numbers of its siblings; a branch reached by the same numbers from
     /// the camera stays stratified over the samples of the pixel. Draws taken so far do not matter.
     #[must_use]
+    #[inline]
     pub fn fork(&self, branch: u32) -> Self {
         // The constant keeps forks apart from draws, which step the key by multiples of GOLDEN.
         let key = mix(self.key.rotate_left(32) ^ mix(u64::from(branch) ^ 0xd1b5_4a32_d192_ed03));
@@ -138,6 +141,7 @@ impl Sampler {
     }
 
     /// The sequence of the next draw.
+    #[inline]
     fn next_scramble(&mut self) -> Scramble {
         self.dimension += 1;
         let bits = mix(self.key.wrapping_add(GOLDEN.wrapping_mul(u64::from(self.dimension))));

@@ -115,10 +115,10 @@ fn limits_and_clamps_take_light_away_and_are_recorded() {
     assert_eq!(text(&whole, "heliostat/integrator"), "path");
     assert_eq!(whole.meta.get("heliostat/depthLimits"), None);
     for (limits, written) in [
-        (DepthLimits { total: 1, ..none }, "1,1024,1024,1024"),
-        (DepthLimits { diffuse: 0, ..none }, "1024,0,1024,1024"),
-        (DepthLimits { transmission: 0, ..none }, "1024,1024,1024,0"),
-        (DepthLimits { glossy: 0, ..none }, "1024,1024,0,1024"),
+        (DepthLimits { total: 1, ..none }, "1,1024,1024,1024,1048576"),
+        (DepthLimits { diffuse: 0, ..none }, "1024,0,1024,1024,1048576"),
+        (DepthLimits { transmission: 0, ..none }, "1024,1024,1024,0,1048576"),
+        (DepthLimits { glossy: 0, ..none }, "1024,1024,0,1024,1048576"),
     ] {
         let less = with(limits, None);
         assert!(sum(&less) < 0.999 * sum(&whole), "{limits:?}");

@@ -82,7 +82,7 @@ impl BsdfSample {
 impl Bsdf {
     /// One that scatters all light evenly to its side: what comes out from below a surface.
     pub(crate) fn white() -> Self {
-        Self::Phong(PhongBsdf::white())
+        Self::Phong(PhongBsdf::matte(Rgb::ONE))
     }
 }
 
@@ -116,6 +116,9 @@ impl Bsdf {
                 let mut point = eval.standard(standard, vertex_color);
                 point.ior /= around.ior;
                 point.walks = around.walks && enters;
+                if let Some(albedo) = point.as_matte() {
+                    return Self::Phong(PhongBsdf::matte(albedo));
+                }
                 Self::Standard(StandardBsdf::new(&point, enters, coat_normal))
             }
             Surface::Phong(_) | Surface::Unlit(_) => {

@@ -67,17 +67,17 @@ impl PhongBsdf {
         }
     }
 
-    /// A white matte surface.
-    pub(crate) fn white() -> Self {
+    /// A matte surface of an albedo.
+    pub(crate) fn matte(albedo: Rgb) -> Self {
         Self {
-            diffuse: Rgb::ONE,
+            diffuse: albedo,
             specular: Rgb::ZERO,
             shininess: 0.0,
             mirror: Rgb::ZERO,
             transparency: Rgb::ZERO,
             eta: 1.0,
             fresnel: FresnelMode::Off,
-            odds: [1.0, 0.0],
+            odds: [if albedo == Rgb::ZERO { 0.0 } else { 1.0 }, 0.0],
         }
     }
 

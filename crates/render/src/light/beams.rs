@@ -6,7 +6,9 @@
 
 use super::Lookout;
 use super::cluster::Cluster;
+use crate::lanes::widest;
 use glam::Vec3;
+use pulp::NullaryFnOnce;
 
 /// Clusters side by side.
 pub(super) const WIDTH: usize = 8;
@@ -75,11 +77,7 @@ impl Beams {
         let side = if from.is_open { -1.0 } else { 1.0 };
         // A point of a medium has no normal, and takes light from anywhere.
         let least = if from.n == Vec3::ZERO { 1.0 } else { -1.0 };
-        let mut importances = [0.0; WIDTH];
-        for (i, importance) in importances.iter_mut().enumerate() {
-            *importance = self.importance(i, from.p, from.n, [side, least]);
-        }
-        importances
+        widest(Judge { beams: self, p: from.p, n: from.n, sides: [side, least] })
     }
 
     /// One lane, without branches. `side` is -1 for surfaces that let light through; `least` the smallest cosine there is at
@@ -103,6 +101,27 @@ impl Beams {
         let share = leaving.cos.max(0.0) * arriving.cos.max(0.0);
         let share = if leaving.cos < self.least_cos[i] { 0.0 } else { share };
         strength * if is_inside { 1.0 } else { share }
+    }
+}
+
+/// The work of [`Beams::importances`].
+struct Judge<'a> {
+    beams: &'a Beams,
+    p: Vec3,
+    n: Vec3,
+    sides: [f32; 2],
+}
+
+impl NullaryFnOnce for Judge<'_> {
+    type Output = Lane;
+
+    #[inline(always)]
+    fn call(self) -> Lane {
+        let mut importances = [0.0; WIDTH];
+        for (i, importance) in importances.iter_mut().enumerate() {
+            *importance = self.beams.importance(i, self.p, self.n, self.sides);
+        }
+        importances
     }
 }
 

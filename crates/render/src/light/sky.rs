@@ -1,7 +1,7 @@
 //! The sky as a light: the background, and ambient light, which comes from a sky that nobody sees.
 //!
 //! Only what is brighter than the mean is worth asking for: the rest is found by rays that surfaces scatter. Where the sky is
-//! the same everywhere, those do it alone.
+//! nearly the same everywhere, those do it alone, and with less noise than both together.
 //!
 //! # Source
 //! Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th edition, section 12.5.2; Karlík et al., "MIS Compensation:
@@ -22,6 +22,9 @@ const GRADIENT_ROWS: usize = 64;
 
 /// Rows of the table of daylight.
 const DAY_ROWS: usize = 128;
+
+/// A sky is asked where the square of its deviation from its mean is so many times the square of the mean, over the sphere.
+const LEAST_CONTRAST: f64 = 1.0;
 
 /// Light from infinitely far, from all around.
 #[derive(Debug)]
@@ -63,9 +66,11 @@ impl<'s> Sky<'s> {
             }
         };
         if used == Use::Paths {
-            let mean = grid.mean();
+            let mean = grid.mean(|l| l);
             sky.mean += mean as f32;
-            sky.table = grid.table(mean);
+            if grid.mean(|l| (l - mean) * (l - mean)) > LEAST_CONTRAST * mean * mean {
+                sky.table = grid.table(mean);
+            }
         }
         (sky, sun)
     }
@@ -175,9 +180,9 @@ impl Grid {
         0.5 * (cos(row) - cos(row + 1)) / self.columns as f64
     }
 
-    /// Mean luminance over the sphere.
-    fn mean(&self) -> f64 {
-        let row_sum = |row: &[f32]| row.iter().map(|&l| f64::from(l)).sum::<f64>();
+    /// The mean over the sphere of something of the luminance.
+    fn mean(&self, of: impl Fn(f64) -> f64) -> f64 {
+        let row_sum = |row: &[f32]| row.iter().map(|&l| of(f64::from(l))).sum::<f64>();
         self.luminances
             .chunks_exact(self.columns)
             .enumerate()

@@ -39,3 +39,21 @@ pub(crate) struct StandardPoint {
     /// Thickness of the film in nanometres.
     pub(crate) film_thickness: f32,
 }
+
+impl StandardPoint {
+    /// The albedo of a surface that is Lambert's and nothing else.
+    pub(crate) fn as_matte(&self) -> Option<Rgb> {
+        let layers = [
+            self.specular,
+            self.metalness,
+            self.transmission,
+            self.diffuse_transmission,
+            self.diffuse_roughness,
+            self.subsurface,
+            self.coat,
+            self.film,
+            self.sheen_color.max_element(),
+        ];
+        layers.iter().all(|&layer| layer == 0.0).then_some(self.base_color)
+    }
+}

@@ -1,6 +1,7 @@
 //! Directions may be swapped.
 
 use super::*;
+use crate::bsdf::phong::PhongBsdf;
 
 /// Pairs of directions on the same side, well away from the horizon.
 fn pairs(sign: f32) -> impl Iterator<Item = (Vec3, Vec3)> {
@@ -66,4 +67,22 @@ fn bsdf_refraction_is_reciprocal_by_the_square_of_the_index() {
             }
         }
     }
+}
+
+#[test]
+fn what_is_only_matte_is_lamberts() {
+    let color = Rgb::new(0.7, 0.4, 0.1);
+    for enters in [false, true] {
+        let point = StandardPoint { base_color: color, specular: 0.0, roughness: 0.6, ..white() };
+        assert_eq!(point.as_matte(), Some(color));
+        let (whole, short) = (StandardBsdf::new(&point, enters, Vec3::Z), PhongBsdf::matte(color));
+        for at in lattice(200) {
+            let (wo, wi) = (direction(at.x, at.y), direction(2.0 * at.z - 1.0, at.x));
+            let (value, pdf) = whole.seen_from(wo).answer(wi);
+            let (expected, density) = short.eval(wo, wi);
+            assert!((value - expected).abs().max_element() < 1e-5, "{enters}: {value} for {expected}");
+            assert!((pdf - density).abs() < 1e-5, "{enters}: {pdf} for {density}");
+        }
+    }
+    assert_eq!(StandardPoint { coat: 0.1, specular: 0.0, ..white() }.as_matte(), None);
 }

@@ -72,7 +72,6 @@ struct Enter<'a> {
 impl NullaryFnOnce for Enter<'_> {
     type Output = Entries;
 
-    #[expect(clippy::needless_range_loop, reason = "a lane is a number")]
     #[inline(always)]
     fn call(self) -> Entries {
         let Self { boxes, ray, end } = self;
