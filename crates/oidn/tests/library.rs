@@ -17,6 +17,7 @@ fn noise(count: usize) -> Vec<f32> {
 }
 
 #[test]
+#[expect(clippy::print_stderr, reason = "a skipped test says so")]
 fn noise_becomes_its_mean() {
     if std::env::var_os(ENVIRONMENT).is_none() {
         eprintln!("skipped: {ENVIRONMENT} names no library");

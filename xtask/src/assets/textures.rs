@@ -20,7 +20,7 @@ pub(super) fn all() -> Vec<(&'static str, DynamicImage)> {
         ("marble.png", picture(marble)),
         ("studs_normal.png", picture(studs)),
         ("chart.png", picture(chart)),
-        ("rings.1001.png", picture(|u, v| rings(u, v))),
+        ("rings.1001.png", picture(rings)),
         ("rings.1002.png", picture(|u, v| rings(u + 1.0, v))),
         ("rings.1011.png", picture(|u, v| rings(u, v + 1.0))),
         ("rings.1012.png", picture(|u, v| rings(u + 1.0, v + 1.0))),

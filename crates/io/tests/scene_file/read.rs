@@ -1,6 +1,6 @@
 //! What values mean, and that files survive being written and read.
 
-use crate::flips::FLIPS;
+use crate::flips::flips;
 use crate::keys;
 use crate::support::shot;
 use glam::{DVec3, Vec3};
@@ -189,7 +189,7 @@ fn settings_survive_being_written_and_read() {
 
 #[test]
 fn every_table_survives_being_written_and_read() {
-    for (table, _, one, other) in FLIPS {
+    for (table, _, one, other) in flips() {
         for lines in [one, other] {
             let text = keys::file(table, lines);
             let first: SceneFile = toml::from_str(&text).unwrap_or_else(|e| panic!("{e}\n{text}"));
