@@ -78,12 +78,12 @@ fn green(stage: &Stage, camera: Camera, size: [u32; 2], samples: u32, mip_maps: 
         threads: 1,
         ..RenderSettings::default()
     };
-    let prepared = Prepared::new(&scene, &settings).unwrap();
+    let prepared = Prepared::new(&scene, &settings).expect("the scene is valid");
     let mut film = prepared.film();
     let cancel = AtomicBool::new(false);
     let control = heliostat_render::Control { cancel: &cancel, on_tile: &|_| {} };
     prepared.pass(&mut film, 0..samples, &control);
-    prepared.frame(&film).channel("G").unwrap().values.clone()
+    prepared.frame(&film).channel("G").expect("a picture has colours").values.clone()
 }
 
 fn mean(values: &[f32]) -> f32 {
