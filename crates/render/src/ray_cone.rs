@@ -11,7 +11,6 @@
 //! on the surface); Suykens, Willems, "Path Differentials and Applications", EGWR 2001 (footprints by density and number
 //! of samples); Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th edition, section 10.1.3 (the least share).
 
-use crate::world::SurfaceHit;
 use glam::{Vec2, Vec3};
 use heliostat_geometry::Hit;
 use std::f32::consts::PI;
@@ -66,15 +65,15 @@ impl RayCone {
         Self { spread: if spread < WIDEST { spread } else { WIDEST }, ..*self }
     }
 
-    /// Tells a hit, after `way` metres of a ray in direction `dir`, what it stands for.
+    /// What one look at a hit of a ray in direction `dir` stands for.
     #[inline]
-    pub(crate) fn mark(&self, surface: &mut SurfaceHit, dir: Vec3) {
-        // Where nobody looks at surface parameters, there are none.
-        if !self.is_point() && surface.hit.dpdu != Vec3::ZERO {
-            let length = dir.length();
-            let width = self.after(surface.hit.t * length).width;
-            surface.footprint = footprint(&surface.hit, dir / length, width);
+    pub(crate) fn footprint(&self, hit: &Hit, dir: Vec3) -> [Vec2; 2] {
+        if self.is_point() {
+            return [Vec2::ZERO; 2];
         }
+        let length = dir.length();
+        let width = self.after(hit.t * length).width;
+        footprint(hit, dir / length, width)
     }
 }
 

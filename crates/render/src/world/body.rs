@@ -60,6 +60,17 @@ pub(crate) enum Parameters {
     Unused,
 }
 
+impl Parameters {
+    /// Something of them, where it is used.
+    #[inline(always)]
+    pub(crate) fn of<T: Default>(self, work: impl FnOnce() -> T) -> T {
+        match self {
+            Self::Used => work(),
+            Self::Unused => T::default(),
+        }
+    }
+}
+
 /// The surface at a meeting.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SurfaceAt {

@@ -43,6 +43,7 @@ pub(crate) use volumes::Matter;
 
 use crate::bsdf::KnownBsdfs;
 use crate::light::{LightTable, PreparedLight, Use};
+use crate::ray_cone::RayCone;
 use body::{Parameters, SurfaceAt};
 use filter::Clear;
 use glam::Vec2;
@@ -205,7 +206,7 @@ impl<'s> World<'s> {
         cost.leaves += below.leaves;
         cost.tests += below.tests;
         let found = found?;
-        self.surface(found.primitive, ray, time, &found.data, Parameters::Used)
+        self.surface(found.primitive, (ray, &RayCone::POINT), time, &found.data, Parameters::Used)
     }
 
     /// The nearest thing on the way of a ray that the eye sees.
@@ -230,8 +231,7 @@ impl<'s> World<'s> {
         let thing = Thing { solid: found.primitive, part: found.data.part };
         let mut room = None;
         let ray = passing.seen_by(thing, &passing.ray, &mut room);
-        let surface = self.surface(thing.solid, ray, time, &found.data, parameters(thing.solid));
-        surface.map(|surface| marked(surface, passing))
+        self.surface(thing.solid, (ray, &passing.cone), time, &found.data, parameters(thing.solid))
     }
 
     /// The nearest meeting of a ray with one solid: where on the ray, and the rest in `met`.
@@ -283,8 +283,7 @@ impl<'s> World<'s> {
         self.with_thing(thing, time, |standing| {
             standing.body.closest(standing.place, ray, &mut met.meeting)
         })?;
-        let surface = self.surface(thing.solid, ray, time, &met, Parameters::Used);
-        surface.map(|surface| marked(surface, passing))
+        self.surface(thing.solid, (ray, &passing.cone), time, &met, Parameters::Used)
     }
 
     /// The lights that shine from somewhere.
@@ -324,18 +323,19 @@ impl<'s> World<'s> {
     fn surface(
         &self,
         solid: u32,
-        ray: &Ray,
+        (ray, cone): (&Ray, &RayCone),
         time: f32,
         met: &Met,
         parameters: Parameters,
     ) -> Option<SurfaceHit> {
         let (index, solid) = (solid, &self.solids[solid as usize]);
         let Content::Body(body) = &solid.content else {
-            return self.surface_of_part(index, ray, time, met, parameters);
+            return self.surface_of_part(index, (ray, cone), time, met, parameters);
         };
         let mut room = None;
         let found = body.surface(solid.place.at(time, &mut room)?, ray, &met.meeting, parameters);
-        Some(self.owned(index, 0, self.scene.objects.get(index as usize), found))
+        let footprint = parameters.of(|| cone.footprint(&found.hit, ray.dir));
+        Some(self.owned((index, 0), self.scene.objects.get(index as usize), found, footprint))
     }
 
     /// [`World::surface`] for a group; apart, as [`World::meet_parts`].
@@ -343,7 +343,7 @@ impl<'s> World<'s> {
     fn surface_of_part(
         &self,
         solid: u32,
-        ray: &Ray,
+        (ray, cone): (&Ray, &RayCone),
         time: f32,
         met: &Met,
         parameters: Parameters,
@@ -351,19 +351,25 @@ impl<'s> World<'s> {
         self.with_thing(Thing { solid, part: met.part }, time, |part| {
             let parameters = if parameters == Parameters::Used { parameters } else { part.parameters };
             let found = part.body.surface(part.place, ray, &met.meeting, parameters);
-            Some(self.owned(solid, met.part, part.object, found))
+            let footprint = parameters.of(|| cone.footprint(&found.hit, ray.dir));
+            Some(self.owned((solid, met.part), part.object, found, footprint))
         })
     }
 
     /// A surface with its owner.
     #[inline(always)]
-    fn owned(&self, solid: u32, part: u64, object: Option<&Object>, found: SurfaceAt) -> SurfaceHit {
+    fn owned(
+        &self,
+        (solid, part): (u32, u64),
+        object: Option<&Object>,
+        found: SurfaceAt,
+        footprint: [Vec2; 2],
+    ) -> SurfaceHit {
         let SurfaceAt { hit, local, slot, uv1, color, coverage, triangle } = found;
         let owner = match object {
             Some(object) => Owner::Object { index: solid, material: object.material(slot) },
             None => Owner::Light(self.shining[solid as usize - self.scene.objects.len()]),
         };
-        let footprint = [Vec2::ZERO; 2];
         SurfaceHit { hit, owner, part, local, uv1, footprint, color, coverage, triangle }
     }
 
@@ -415,13 +421,6 @@ fn make_mips(scene: &Scene) {
             texture.images().for_each(|image| _ = image.level(1));
         }
     });
-}
-
-/// A surface that knows how wide the ray is that found it.
-#[inline]
-fn marked(mut surface: SurfaceHit, passing: &PassingRay) -> SurfaceHit {
-    passing.cone.mark(&mut surface, passing.ray.dir);
-    surface
 }
 
 /// What lights are for, and which transparent surfaces let light through.

@@ -7,6 +7,7 @@ use super::{Eye, Inside, PassingRay, SurfaceHit, Thing, World};
 use crate::interiors::Interiors;
 use crate::medium::PreparedMedium;
 use crate::medium::flight::Way;
+use crate::ray_cone::RayCone;
 use crate::world::body::Parameters;
 use glam::Vec3;
 use heliostat_geometry::{Aabb, Ray};
@@ -151,7 +152,7 @@ impl<'s> World<'s> {
         let thing = Thing { solid: found.primitive, part: found.data.part };
         let mut room = None;
         let ray = passing.seen_by(thing, &passing.ray, &mut room);
-        self.surface(thing.solid, ray, time, &found.data, Parameters::Used)
+        self.surface(thing.solid, (ray, &passing.cone), time, &found.data, Parameters::Used)
     }
 
     /// The bodies that hold a point, those that are boundaries of media or have a priority: it lies in those that a ray leaves
@@ -182,7 +183,10 @@ impl<'s> World<'s> {
         for _ in 0..MOST_SURFACES {
             let mut met = Met::default();
             let Some(t) = self.meet(&look, &rest, &mut met) else { return };
-            let Some(surface) = self.surface(solid, &rest, time, &met, Parameters::Used) else { return };
+            let Some(surface) = self.surface(solid, (&rest, &RayCone::POINT), time, &met, Parameters::Used)
+            else {
+                return;
+            };
             if let (Some(thing), Some(id)) = (surface.thing(), surface.material())
                 && !seen.contains(&thing)
             {
