@@ -37,7 +37,6 @@ impl Ggx {
     }
 
     /// The same width along all tangents; at least that of which rounding leaves something.
-    #[cfg(test)]
     pub(crate) fn isotropic(alpha: f32) -> Self {
         Self { alpha: Vec2::splat(alpha.max(error_bound::LEAST_WIDTH)), tangent: Vec2::X }
     }

@@ -93,6 +93,8 @@ impl CoverFill {
 /// The boundary of clear matter as a layer.
 #[derive(Clone, Debug)]
 struct Face {
+    /// Its reflectance over the angle, and as it is seen through facets.
+    bare: Curve,
     curve: CurveSeen,
     between: Rgb,
     /// Whether it reflects nothing.
@@ -108,6 +110,13 @@ impl Face {
         let lost = reflection.lost(place);
         let kept = (1.0 - lost) * self.curve.at(place) + self.between * lost;
         (Rgb::ONE - kept).clamp(Rgb::ZERO, Rgb::ONE)
+    }
+}
+
+impl Face {
+    /// The mean of what gets through, where that is known.
+    fn passed_mean(&self, reflection: &Reflection) -> Option<Rgb> {
+        if self.is_dark { Some(Rgb::ONE) } else { reflection.passed_mean(&self.bare, self.between) }
     }
 }
 
@@ -132,7 +141,7 @@ impl Fill {
         let reflection = Reflection::of(base.ggx);
         let curve = Curve::new(|cos| base.clear.reflectance(cos));
         let between = reflection.between(&curve);
-        let face = Face { curve: reflection.seen(&curve), between, is_dark: curve.is_zero() };
+        let face = Face { curve: reflection.seen(&curve), between, is_dark: curve.is_zero(), bare: curve };
         let is_bent = base.passage == Passage::Bent;
         let bent = base.ggx.as_ref().filter(|_| is_bent);
         Self {
@@ -247,7 +256,8 @@ fn matte_fill(
     }
     let through = point.diffuse_transmission;
     let passed = |w: Vec3| cover.passed(w) * face.passed(reflection, &reflection.place(w));
-    let mean = reflection.mean_around(passed);
+    let mean = face.passed_mean(reflection).filter(|_| cover.is_none());
+    let mean = mean.unwrap_or_else(|| reflection.mean_around(passed));
     // Light that walks leaves less to what is matte; where none does, it has the colour of both.
     let (color, under) = if point.walks {
         ((1.0 - point.subsurface) * point.base_color, point.subsurface)

@@ -14,6 +14,11 @@ impl Curve {
         Self(const { nodes::<CURVE>() }.map(reflectance))
     }
 
+    /// 1 at one node, 0 at the others.
+    pub(super) fn unit(node: usize) -> Self {
+        Self(std::array::from_fn(|k| if k == node { Rgb::ONE } else { Rgb::ZERO }))
+    }
+
     /// Whether it is 0 at every angle.
     pub(crate) fn is_zero(&self) -> bool {
         self.0 == [Rgb::ZERO; CURVE]

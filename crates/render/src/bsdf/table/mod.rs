@@ -9,6 +9,7 @@ mod curve;
 mod interface;
 #[cfg(test)]
 mod make;
+mod means;
 mod profile;
 mod reflection;
 mod sheen;

@@ -3,6 +3,7 @@
 use super::axis::{curve_width, grazing_axis, width_axis};
 use super::chebyshev::{nodes, weights};
 use super::curve::Curve;
+use super::means::curve_means;
 use super::profile::{Profile, Spot, hemisphere_mean};
 use super::stored::{ANGLES, COS, CURVE, DRAWN_OUT, FINE_WIDTH, LOST, LOWER, LOWERS, STRENGTH, TURN, WIDTH};
 use crate::bsdf::ggx::Ggx;
@@ -90,6 +91,13 @@ impl Reflection {
                 |w, _| curve.sum(&super::curve::curve_weights(w.z)),
             ));
         };
+        if ggx.is_isotropic() {
+            // The nodes of the table are those of the series.
+            let rows: [f32; COS * CURVE] = ANGLES.at::<FINE_WIDTH, _>(width_axis(ggx.mean_alpha()));
+            let width = self.wide_width(Vec3::X);
+            let value = |_, [_, c]: [usize; 2]| curve.sum(&rows[c * CURVE..][..CURVE]);
+            return CurveSeen(Profile::new(Some(ggx), |_| width, value));
+        }
         let mut plane = [[Rgb::ZERO; COS]; FINE_WIDTH];
         for (k, weights) in ANGLES.rows::<CURVE>().enumerate() {
             plane[k / COS][k % COS] = curve.sum(&weights);
@@ -139,6 +147,19 @@ impl Reflection {
         mean * mean * (1.0 - lost) / (Rgb::ONE - mean * lost)
     }
 
+    /// The mean over the hemisphere, weighted by the cosine, of what a boundary with that curve lets through, with what comes
+    /// `between` of light that facets throw at each other; `None` where that has to be summed up.
+    pub(crate) fn passed_mean(&self, curve: &Curve, between: Rgb) -> Option<Rgb> {
+        let reflected = match &self.ggx {
+            None => curve.cosine_mean(),
+            Some(ggx) if ggx.is_isotropic() => {
+                curve.sum(&curve_means(ggx.mean_alpha())) + between * self.lost_mean
+            }
+            Some(_) => return None,
+        };
+        Some((Rgb::ONE - reflected).clamp(Rgb::ZERO, Rgb::ONE))
+    }
+
     /// The mean over the hemisphere, weighted by the cosine, of what depends on a direction as the facets do, and on covers.
     pub(crate) fn mean_around(&self, value: impl Fn(Vec3) -> Rgb) -> Rgb {
         hemisphere_mean(self.ggx.as_ref(), |w| self.steep_width(w).min(MOST_WIDTH), value)
@@ -149,6 +170,11 @@ impl Reflection {
 const MOST_WIDTH: f32 = 0.1;
 
 impl CurveSeen {
+    /// The mean of what need not be a reflectance.
+    pub(super) fn weight_at(&self, place: &Place) -> Rgb {
+        self.0.at(place.wide)
+    }
+
     /// The mean at a place.
     #[inline]
     pub(crate) fn at(&self, place: &Place) -> Rgb {
