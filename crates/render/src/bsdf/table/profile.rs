@@ -6,6 +6,7 @@ use super::stored::{COS, TURN};
 use crate::bsdf::ggx::Ggx;
 use crate::bsdf::quadrature::gauss_legendre;
 use glam::{Vec2, Vec3};
+use std::sync::LazyLock;
 
 /// A function of a direction, as series over the cosine and, where highlights are drawn out, over the turn.
 #[derive(Clone, Debug)]
@@ -108,6 +109,9 @@ fn raised(along: Vec2, cos: f32) -> Vec3 {
 const HEIGHTS: usize = 32;
 const AROUND: usize = 8;
 
+/// Nodes and weights over the height, worked out once.
+static HEIGHT_NODES: LazyLock<[(f32, f32); HEIGHTS]> = LazyLock::new(gauss_legendre);
+
 /// The mean over the hemisphere, weighted by the cosine, of a function of the direction that depends on the turn as facets do.
 ///
 /// Nodes lie evenly over the logarithm of cosines above `width`, so that what narrow highlights do and what happens over
@@ -127,7 +131,7 @@ pub(crate) fn hemisphere_mean<V: Value>(
         });
         let width = width(along.extend(0.0));
         let range = (1.0 / width).ln_1p();
-        for (x, weight) in gauss_legendre::<HEIGHTS>() {
+        for &(x, weight) in HEIGHT_NODES.iter() {
             let cos = width * (x * range).exp_m1();
             let area = 2.0 * cos * (cos + width) * range;
             sum = sum + value(raised(along, cos)) * (weight * area / count as f32);
