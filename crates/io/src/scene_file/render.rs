@@ -95,10 +95,10 @@ pub struct RenderTable {
     /// photons from the lamps, under `path`: too smooth at first, and right with many samples. `paths` if left out.
     pub caustics: Option<CausticsName>,
     /// Photons for each sample of the picture; 100000 if left out.
-    pub caustic_photons: Option<Whole<1, 16_777_216>>,
+    pub caustic_photons: Option<Placed<Whole<1, 16_777_216>>>,
     /// How far around a point photons count at the first sample, in metres; it shrinks with the samples. By the size of what is
     /// clear and mirrors if left out.
-    pub caustic_radius: Option<Positive>,
+    pub caustic_radius: Option<Placed<Positive>>,
     /// Which of many lights the integrators of paths ask: the noise is another, the picture the same. `tree` if left out.
     pub light_choice: Option<LightChoiceName>,
     /// Rays per point of the integrator `ambient_occlusion`; 16 if left out.
@@ -296,13 +296,12 @@ impl RenderTable {
             transparent_shadows: self.transparent_shadows.unwrap_or(normal.transparent_shadows),
             depth_limits: self.depth_limits.as_ref().map_or(normal.depth_limits, DepthLimitsTable::limits),
             clamp_indirect: self.clamp_indirect.map(Positive::f32),
-            caustics: match self.caustics {
-                Some(CausticsName::Paths) => Caustics::Paths,
-                Some(CausticsName::Photons) => Caustics::Photons,
-                None => normal.caustics,
-            },
-            caustic_photons: self.caustic_photons.map_or(normal.caustic_photons, Whole::u32),
-            caustic_radius: self.caustic_radius.map(Positive::f32),
+            caustics: self.caustics()?,
+            caustic_photons: self
+                .caustic_photons
+                .as_ref()
+                .map_or(normal.caustic_photons, |count| count.u32()),
+            caustic_radius: self.caustic_radius.as_ref().map(|radius| radius.f32()),
             light_choice: self
                 .light_choice
                 .and_then(|name| counterpart(&LIGHT_CHOICES, name))
@@ -315,6 +314,21 @@ impl RenderTable {
             camera,
             threads: normal.threads,
         })
+    }
+
+    /// How caustics are found; an error where something is said of photons that nobody asks for.
+    fn caustics(&self) -> Result<Caustics, Fault> {
+        if self.caustics == Some(CausticsName::Photons) {
+            return Ok(Caustics::Photons);
+        }
+        let count = self.caustic_photons.as_ref().map(|count| ("caustic_photons", count.span()));
+        let radius = self.caustic_radius.as_ref().map(|radius| ("caustic_radius", radius.span()));
+        match count.or(radius) {
+            Some((key, span)) => Err(Fault::new(format!("`{key}` does nothing without photons"))
+                .with_help("write caustics = \"photons\", or leave it out")
+                .or_at(span)),
+            None => Ok(Caustics::Paths),
+        }
     }
 
     fn size(&self, normal: &RenderSettings) -> Result<(u32, u32), Fault> {
@@ -344,6 +358,7 @@ impl RenderTable {
     ///
     /// Threads belong to the machine and the noise floor to the exposure: both are left out.
     pub fn from_settings(settings: &RenderSettings, camera: Option<&str>) -> Self {
+        let photons = settings.caustics == Caustics::Photons;
         let region = settings.region.and_then(|r| {
             let side = |v: u32| Whole::new(i64::from(v));
             Some([side(r.x0)?, side(r.y0)?, side(r.x1)?, side(r.y1)?].into())
@@ -373,8 +388,15 @@ impl RenderTable {
                 Caustics::Paths => CausticsName::Paths,
                 Caustics::Photons => CausticsName::Photons,
             }),
-            caustic_photons: Whole::new(settings.caustic_photons.into()),
-            caustic_radius: settings.caustic_radius.and_then(|radius| Positive::new(radius.into())),
+            caustic_photons: photons
+                .then_some(settings.caustic_photons.into())
+                .and_then(Whole::new)
+                .map(Placed::from),
+            caustic_radius: settings
+                .caustic_radius
+                .filter(|_| photons)
+                .and_then(|radius| Positive::new(radius.into()))
+                .map(Placed::from),
             light_choice: counterpart_of(&LIGHT_CHOICES, settings.light_choice),
             ao_samples: Whole::new(settings.ao_samples.into()),
             ao_distance: Positive::new(settings.ao_distance.into()),
