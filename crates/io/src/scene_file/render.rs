@@ -22,7 +22,7 @@
 //! # depth_limits = { total = 12 } # of the integrator "path"; see the module `depth_limits`
 //! # clamp_indirect = 10          # the most that a sample of its indirect light adds; all of it if left out
 //! caustics = "paths"             # "photons": what mirrors and clear glass throw onto matte things, from the lamps; under "path"
-//! caustic_photons = 100000       # photons for each sample
+//! # caustic_photons = 100000     # photons for each sample
 //! # caustic_radius = 0.01        # metres around a point in which they count at first; by the size of the glass if left out
 //! light_choice = "tree"          # which of many lights paths ask; "power", "uniform"
 //! ao_samples = 16                # rays per point of the integrator "ambient_occlusion"

@@ -52,12 +52,7 @@ pub(super) const FLIPS: &[Flip] = &[
     ("RenderTable", "sampler", "sampler = 'blue'", "sampler = 'white'"),
     ("RenderTable", "clamp_indirect", "", "clamp_indirect = 3"),
     ("RenderTable", "caustics", "", "caustics = 'photons'"),
-    (
-        "RenderTable",
-        "caustic_photons",
-        "caustics = 'photons'",
-        "caustics = 'photons'\ncaustic_photons = 3",
-    ),
+    ("RenderTable", "caustic_photons", "caustics = 'photons'", "caustics = 'photons'\ncaustic_photons = 3"),
     ("RenderTable", "caustic_radius", "caustics = 'photons'", "caustics = 'photons'\ncaustic_radius = 3"),
     ("RenderTable", "light_choice", "", "light_choice = 'power'"),
     ("RenderTable", "ao_samples", "", "ao_samples = 3"),
