@@ -2,7 +2,7 @@
 
 use crate::error::{MAX_DEPTH, MAX_PIXELS, RenderError};
 use crate::filter::MAX_RADIUS;
-use heliostat_scene::settings::PixelRect;
+use heliostat_scene::settings::{Caustics, IntegratorKind, PixelRect};
 use heliostat_scene::{Camera, RenderSettings, Scene};
 
 /// The camera to render with, once settings and scene are found to be in order.
@@ -52,11 +52,26 @@ fn work(settings: &RenderSettings) -> Result<(), RenderError> {
     if settings.max_depth > MAX_DEPTH {
         return Err(RenderError::TooDeep(settings.max_depth));
     }
+    caustics(settings)?;
     let (weight, distance) = (settings.min_weight, settings.ao_distance);
     let clamp = settings.clamp_indirect.unwrap_or(f32::INFINITY);
     setting("clamp_indirect", clamp, "above 0", clamp > 0.0)?;
     setting("min_weight", weight, "a number from 0 to 1", (0.0..=1.0).contains(&weight))?;
     setting("ao_distance", distance, "above 0", distance > 0.0)
+}
+
+/// Photons.
+fn caustics(settings: &RenderSettings) -> Result<(), RenderError> {
+    let (photons, radius) = (settings.caustic_photons, settings.caustic_radius.unwrap_or(1.0));
+    let most = RenderSettings::MOST_PHOTONS;
+    setting("caustic_photons", photons as f32, "from 1 to 16777216", (1..=most).contains(&photons))?;
+    setting("caustic_radius", radius, "above 0", radius > 0.0 && radius.is_finite())?;
+    match (settings.caustics, settings.integrator) {
+        (Caustics::Photons, IntegratorKind::VolPath | IntegratorKind::PathSimple) => {
+            Err(RenderError::PhotonsNeedPath)
+        }
+        _ => Ok(()),
+    }
 }
 
 /// What else than the number of samples ends a render.

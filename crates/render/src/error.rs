@@ -62,6 +62,11 @@ pub enum RenderError {
     /// The most samples are set where nothing asks for more than the least.
     #[error("max_samples does nothing without noise or time; set one of them, or samples")]
     UselessMaxSamples,
+    /// Photons are asked for, of an integrator that has none.
+    #[error(
+        "caustics are asked of photons, which the integrator does not know; choose `path`, or caustics by `paths`"
+    )]
+    PhotonsNeedPath,
     /// The radius of the filter is out of range.
     #[error("the filter radius is {0} pixels; it must be above 0 and at most {MAX_RADIUS}")]
     FilterRadius(f32),

@@ -84,6 +84,7 @@ mod meta;
 mod normals;
 mod path_point;
 mod phong;
+mod photons;
 mod plan;
 mod post_dof;
 pub mod prepared;

@@ -15,7 +15,7 @@ use crate::camera_ray::CameraRays;
 use crate::film::Film;
 use glam::{DAffine3, DMat4, DVec3, DVec4};
 use heliostat_scene::frame::Meta;
-use heliostat_scene::settings::{DepthLimits, Filter, IntegratorKind, SamplerKind};
+use heliostat_scene::settings::{Caustics, DepthLimits, Filter, IntegratorKind, SamplerKind};
 use heliostat_scene::{Camera, RenderSettings};
 use std::collections::BTreeMap;
 
@@ -70,6 +70,13 @@ fn say_biases(settings: &RenderSettings, say: &mut impl FnMut(&str, Meta) -> Opt
     }
     if let Some(clamp) = settings.clamp_indirect {
         say("heliostat/clampIndirect", Meta::Float(clamp));
+    }
+    if settings.integrator == IntegratorKind::Path && settings.caustics == Caustics::Photons {
+        say("heliostat/caustics", text("photons"));
+        say("heliostat/causticPhotons", int(settings.caustic_photons));
+        if let Some(radius) = settings.caustic_radius {
+            say("heliostat/causticRadius", Meta::Float(radius));
+        }
     }
 }
 

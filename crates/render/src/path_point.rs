@@ -238,6 +238,38 @@ impl<'a> PathPoint<'a> {
         (share * value, pdf)
     }
 
+    /// The share of [`PathPoint::eval`] that is drawn as an [`Event::Diffuse`].
+    pub(crate) fn matte(&self, to_light: Vec3) -> Rgb {
+        let wi = self.frame.to_local(to_light);
+        let (value, pdf) = self.eval(to_light);
+        if pdf > 0.0 { self.view.matte_pdf(wi) / pdf * value } else { Rgb::ZERO }
+    }
+
+    /// Whether any light is.
+    #[inline]
+    pub(crate) fn is_matte(&self) -> bool {
+        self.view.is_matte()
+    }
+
+    /// What the flux of light that comes from the viewer and leaves by a smooth way is multiplied by, beside the weight that
+    /// radiance has on the same way back: the ratio of the sizes under which the surface is seen, which differs from that of the
+    /// shading normal, and that of the squared indices, because paths carry basic radiance.
+    ///
+    /// # Source
+    /// Veach, "Robust Monte Carlo Methods for Light Transport Simulation", Stanford, 1997, sections 5.2 and 5.3.
+    pub(crate) fn adjoint(&self, onward: &Onward, around: &Interiors) -> f32 {
+        let Normals { view, ng, ns, enters, .. } = self.normals;
+        let dir = onward.passing.ray.dir.normalize();
+        let sizes = (dir.dot(ng) / view.dot(ng)).abs();
+        let is_bent = onward.sample.wi.z < 0.0 && self.material.surface.encloses();
+        if !is_bent {
+            return sizes;
+        }
+        let ior = self.material.surface.ior() / around.ior_beside(self.surface.thing());
+        let eta = if enters { ior } else { ior.recip() };
+        sizes * (view.dot(ns) / dir.dot(ns)).abs() / (eta * eta)
+    }
+
     /// A way on, by random numbers for the layer and the direction; `None` where the light is lost.
     #[inline]
     pub(crate) fn sample(&self, passing: &PassingRay, layer: f32, u: Vec2) -> Option<Onward> {

@@ -4,13 +4,15 @@ use crate::check::check;
 use crate::error::RenderError;
 use crate::film::Film;
 use crate::integrator::{self, Integrator};
+use crate::photons;
 use crate::plan::Plan;
 use crate::sampler::Pattern;
-use crate::schedule::{self, Control, PassOutcome, Shooter};
+use crate::schedule::{self, Control, PassOutcome, Shooter, Tally, TileDone};
 use crate::stats::{RenderStats, timed};
 use crate::world::{TreeCache, World};
 use heliostat_scene::{Frame, RenderSettings, Scene};
 use std::ops::Range;
+use std::sync::atomic::Ordering;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Stack of a thread without recursion, and per reflection or refraction in a row.
@@ -93,7 +95,7 @@ impl<'s> Prepared<'s> {
         cache: &mut TreeCache,
     ) -> Result<Self, RenderError> {
         let camera = check(scene, settings)?;
-        let plan = Plan::new(camera, settings);
+        let mut plan = Plan::new(camera, settings);
         plan.reserve()?;
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(settings.threads)
@@ -102,6 +104,9 @@ impl<'s> Prepared<'s> {
             .build()?;
         let (world, seconds) = timed(|| pool.install(|| World::with_cache(scene, settings, cache)));
         let world = world?;
+        // What is taken for a setting that was left out is to be recorded.
+        plan.settings.caustic_radius =
+            settings.caustic_radius.or_else(|| photons::first_radius(&world, settings));
         let stats = Mutex::new(RenderStats::prepared(&world, seconds));
         Ok(Self { plan, world, integrator, pool, stats })
     }
@@ -121,18 +126,61 @@ impl<'s> Prepared<'s> {
     /// When the film was made for a picture with other pixels or layers.
     pub fn pass(&self, film: &mut Film, samples: Range<u32>, control: &Control<'_>) -> PassOutcome {
         self.plan.assert_fits(film);
-        let shooter = Shooter {
+        let run = || match self.integrator.samples_at_once() {
+            None => schedule::run(&self.shooter(&*self.integrator), film, &samples, control),
+            Some(most) => self.run_in_turns(film, &samples, most, control),
+        };
+        let ((outcome, tally), seconds) = timed(|| self.pool.install(run));
+        self.lock_stats().add(&tally, seconds);
+        outcome
+    }
+
+    /// Runs a pass by so many samples at a time, for which the integrator is made ready.
+    fn run_in_turns(
+        &self,
+        film: &mut Film,
+        samples: &Range<u32>,
+        most: u32,
+        control: &Control<'_>,
+    ) -> (PassOutcome, Tally) {
+        let mut all = (PassOutcome { finished: true, samples: 0 }, Tally::default());
+        let turns = samples.len().div_ceil(most as usize);
+        for (turn, start) in samples.clone().step_by(most as usize).enumerate() {
+            if film.is_settled() {
+                break;
+            }
+            if control.cancel.load(Ordering::Relaxed) {
+                return (PassOutcome { finished: false, ..all.0 }, all.1);
+            }
+            let range = start..samples.end.min(start.saturating_add(most));
+            let ready = self.integrator.for_samples(&self.world, range.clone());
+            let integrator = ready.as_deref().unwrap_or(&*self.integrator);
+            let before = all.1.rays.total();
+            let on_tile = |TileDone { done, total, rays }| {
+                (control.on_tile)(TileDone {
+                    done: turn * total + done,
+                    total: turns * total,
+                    rays: before + rays,
+                });
+            };
+            let control = Control { on_tile: &on_tile, ..*control };
+            let (outcome, tally) = schedule::run(&self.shooter(integrator), film, &range, &control);
+            all.0.samples += outcome.samples;
+            all.0.finished &= outcome.finished;
+            all.1 += tally;
+        }
+        all
+    }
+
+    fn shooter<'a>(&'a self, integrator: &'a dyn Integrator) -> Shooter<'a> {
+        Shooter {
             world: &self.world,
-            integrator: &*self.integrator,
+            integrator,
             camera: &self.plan.rays,
             filter: &self.plan.filter,
             pattern: Pattern::new(&self.plan.settings),
             rule: self.plan.rule(),
-        };
-        let run = || schedule::run(&shooter, film, &samples, control);
-        let ((outcome, tally), seconds) = timed(|| self.pool.install(run));
-        self.lock_stats().add(&tally, seconds);
-        outcome
+        }
     }
 
     /// The error of a pixel of the film relative to its brightness, as the root of the mean of the squares over all pixels; `None`

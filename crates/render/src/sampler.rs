@@ -98,6 +98,13 @@ impl Sampler {
         Self { key: mix(mix(mix(seed ^ GOLDEN) ^ place) ^ beyond), code, sample, dimension: 0 }
     }
 
+    /// The numbers of a photon of an iteration: stratified among the photons of the iteration, and nothing to those of others and to
+    /// those of pixels.
+    pub(crate) fn of_photon(seed: u64, iteration: u32, photon: u32) -> Self {
+        // No pixel is so far below.
+        Self::new(seed, [iteration, u32::MAX], photon)
+    }
+
     /// Index of the sample within the pixel.
     pub fn sample(&self) -> u32 {
         self.sample

@@ -83,6 +83,17 @@ pub struct DepthLimits {
     pub volume: u32,
 }
 
+/// How light is found that a mirror or clear glass has thrown onto something matte.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Caustics {
+    /// By paths that meet the lamp by chance: unbiased, with noise where lamps are small, and without those of point lights.
+    #[default]
+    Paths,
+    /// By photons that are sent from the lamps with every sample. Too smooth at first, and right in the end: a bias that goes
+    /// away with the samples. Of [`IntegratorKind::Path`] alone.
+    Photons,
+}
+
 /// How the random numbers of pixels stand to each other. A pixel is equally good by itself either way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SamplerKind {
@@ -215,6 +226,13 @@ pub struct RenderSettings {
     pub depth_limits: DepthLimits,
     /// The most that one sample of indirect light may add to a channel of a pixel, above 0: less noise, and less light.
     pub clamp_indirect: Option<f32>,
+    /// How light is found that a mirror or clear glass has thrown onto something matte.
+    pub caustics: Caustics,
+    /// Photons for each sample of the picture, from 1 to [`Self::MOST_PHOTONS`], where photons are asked for.
+    pub caustic_photons: u32,
+    /// How far around a point photons count at the first sample, in metres, above 0; by the size of what is clear and mirrors
+    /// if `None`. It shrinks with the samples.
+    pub caustic_radius: Option<f32>,
     /// Which of many lights paths ask.
     pub light_choice: LightChoice,
     /// Rays per point of the `ambient_occlusion` integrator.
@@ -254,6 +272,9 @@ impl Default for RenderSettings {
             transparent_shadows: false,
             depth_limits: DepthLimits::default(),
             clamp_indirect: None,
+            caustics: Caustics::Paths,
+            caustic_photons: Self::CAUSTIC_PHOTONS,
+            caustic_radius: None,
             light_choice: LightChoice::Tree,
             ao_samples: 16,
             ao_distance: f32::INFINITY,
@@ -269,6 +290,12 @@ impl Default for RenderSettings {
 impl RenderSettings {
     /// A twentieth of white: relative noise is seen evenly well down to there, and ever less below.
     pub const NOISE_FLOOR: f32 = 0.05;
+
+    /// Photons for each sample where nobody says otherwise.
+    pub const CAUSTIC_PHOTONS: u32 = 100_000;
+
+    /// The most photons for each sample: 2^24, about a gigabyte of them.
+    pub const MOST_PHOTONS: u32 = 1 << 24;
 
     /// The most samples of a pixel where nobody says otherwise.
     pub const MAX_SAMPLES: u32 = 16_384;

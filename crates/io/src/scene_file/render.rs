@@ -21,6 +21,9 @@
 //! transparent_shadows = false    # whether light passes, coloured and straight, through transparent things
 //! # depth_limits = { total = 12 } # of the integrator "path"; see the module `depth_limits`
 //! # clamp_indirect = 10          # the most that a sample of its indirect light adds; all of it if left out
+//! caustics = "paths"             # "photons": what mirrors and clear glass throw onto matte things, from the lamps; under "path"
+//! # caustic_photons = 100000     # photons for each sample
+//! # caustic_radius = 0.01        # metres around a point in which they count at first; by the size of the glass if left out
 //! light_choice = "tree"          # which of many lights paths ask; "power", "uniform"
 //! ao_samples = 16                # rays per point of the integrator "ambient_occlusion"
 //! # ao_distance = 1              # their length in metres; without end if left out
@@ -35,7 +38,9 @@ use super::depth_limits::DepthLimitsTable;
 use super::number::{Count, NonNegative, Positive, Whole};
 use crate::document::{Fault, Placed};
 use heliostat_scene::RenderSettings;
-use heliostat_scene::settings::{Filter, IntegratorKind, Layers, LightChoice, PixelRect, SamplerKind};
+use heliostat_scene::settings::{
+    Caustics, Filter, IntegratorKind, Layers, LightChoice, PixelRect, SamplerKind,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -86,6 +91,14 @@ pub struct RenderTable {
     /// The most that one sample of indirect light adds to a channel under `path`: less noise, and less light. All of it if left
     /// out.
     pub clamp_indirect: Option<Positive>,
+    /// How light is found that mirrors and clear glass throw onto matte things: by paths that meet a lamp by chance, or by
+    /// photons from the lamps, under `path`: too smooth at first, and right with many samples. `paths` if left out.
+    pub caustics: Option<CausticsName>,
+    /// Photons for each sample of the picture; 100000 if left out.
+    pub caustic_photons: Option<Placed<Whole<1, 16_777_216>>>,
+    /// How far around a point photons count at the first sample, in metres; it shrinks with the samples. By the size of what is
+    /// clear and mirrors if left out.
+    pub caustic_radius: Option<Placed<Positive>>,
     /// Which of many lights the integrators of paths ask: the noise is another, the picture the same. `tree` if left out.
     pub light_choice: Option<LightChoiceName>,
     /// Rays per point of the integrator `ambient_occlusion`; 16 if left out.
@@ -178,6 +191,16 @@ pub enum LayerName {
     SampleCount,
     /// `variance`: estimated square of the pixel's error.
     Variance,
+}
+
+/// How light is found that mirrors and clear glass throw onto matte things.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum CausticsName {
+    /// By paths that meet a lamp by chance.
+    Paths,
+    /// By photons from the lamps.
+    Photons,
 }
 
 /// Which of many lights a point asks.
@@ -273,6 +296,12 @@ impl RenderTable {
             transparent_shadows: self.transparent_shadows.unwrap_or(normal.transparent_shadows),
             depth_limits: self.depth_limits.as_ref().map_or(normal.depth_limits, DepthLimitsTable::limits),
             clamp_indirect: self.clamp_indirect.map(Positive::f32),
+            caustics: self.caustics()?,
+            caustic_photons: self
+                .caustic_photons
+                .as_ref()
+                .map_or(normal.caustic_photons, |count| count.u32()),
+            caustic_radius: self.caustic_radius.as_ref().map(|radius| radius.f32()),
             light_choice: self
                 .light_choice
                 .and_then(|name| counterpart(&LIGHT_CHOICES, name))
@@ -285,6 +314,21 @@ impl RenderTable {
             camera,
             threads: normal.threads,
         })
+    }
+
+    /// How caustics are found; an error where something is said of photons that nobody asks for.
+    fn caustics(&self) -> Result<Caustics, Fault> {
+        if self.caustics == Some(CausticsName::Photons) {
+            return Ok(Caustics::Photons);
+        }
+        let count = self.caustic_photons.as_ref().map(|count| ("caustic_photons", count.span()));
+        let radius = self.caustic_radius.as_ref().map(|radius| ("caustic_radius", radius.span()));
+        match count.or(radius) {
+            Some((key, span)) => Err(Fault::new(format!("`{key}` does nothing without photons"))
+                .with_help("write caustics = \"photons\", or leave it out")
+                .or_at(span)),
+            None => Ok(Caustics::Paths),
+        }
     }
 
     fn size(&self, normal: &RenderSettings) -> Result<(u32, u32), Fault> {
@@ -314,6 +358,7 @@ impl RenderTable {
     ///
     /// Threads belong to the machine and the noise floor to the exposure: both are left out.
     pub fn from_settings(settings: &RenderSettings, camera: Option<&str>) -> Self {
+        let photons = settings.caustics == Caustics::Photons;
         let region = settings.region.and_then(|r| {
             let side = |v: u32| Whole::new(i64::from(v));
             Some([side(r.x0)?, side(r.y0)?, side(r.x1)?, side(r.y1)?].into())
@@ -339,6 +384,19 @@ impl RenderTable {
             transparent_shadows: Some(settings.transparent_shadows),
             depth_limits: Some(DepthLimitsTable::of(&settings.depth_limits)),
             clamp_indirect: settings.clamp_indirect.and_then(|most| Positive::new(most.into())),
+            caustics: Some(match settings.caustics {
+                Caustics::Paths => CausticsName::Paths,
+                Caustics::Photons => CausticsName::Photons,
+            }),
+            caustic_photons: photons
+                .then_some(settings.caustic_photons.into())
+                .and_then(Whole::new)
+                .map(Placed::from),
+            caustic_radius: settings
+                .caustic_radius
+                .filter(|_| photons)
+                .and_then(|radius| Positive::new(radius.into()))
+                .map(Placed::from),
             light_choice: counterpart_of(&LIGHT_CHOICES, settings.light_choice),
             ao_samples: Whole::new(settings.ao_samples.into()),
             ao_distance: Positive::new(settings.ao_distance.into()),

@@ -9,7 +9,7 @@ use heliostat_io::scene_file::render::RenderTable;
 use heliostat_scene::camera::Projection;
 use heliostat_scene::light::LightKind;
 use heliostat_scene::settings::{
-    DepthLimits, Filter, IntegratorKind, Layers, LightChoice, PixelRect, SamplerKind,
+    Caustics, DepthLimits, Filter, IntegratorKind, Layers, LightChoice, PixelRect, SamplerKind,
 };
 use heliostat_scene::{RenderSettings, Scene};
 use std::collections::BTreeMap;
@@ -170,6 +170,9 @@ fn settings_survive_being_written_and_read() {
         transparent_shadows: true,
         depth_limits: DepthLimits { total: 9, diffuse: 0, glossy: 3, ..DepthLimits::default() },
         clamp_indirect: Some(7.5),
+        caustics: Caustics::Photons,
+        caustic_photons: 77,
+        caustic_radius: Some(0.25),
         mip_maps: false,
         light_choice: LightChoice::Uniform,
         ao_samples: 5,

@@ -186,6 +186,24 @@ impl View<'_> {
         }
     }
 
+    /// The density with which [`Self::sample`] draws `wi` as an [`Event::Diffuse`].
+    #[inline]
+    pub(crate) fn matte_pdf(&self, wi: Vec3) -> f32 {
+        match self {
+            Self::Phong(phong, _) => phong.matte_pdf(wi),
+            Self::Standard(view) => view.matte_pdf(wi),
+        }
+    }
+
+    /// Whether any direction is drawn as an [`Event::Diffuse`].
+    #[inline]
+    pub(crate) fn is_matte(&self) -> bool {
+        match self {
+            Self::Phong(phong, _) => phong.is_matte(),
+            Self::Standard(view) => view.is_matte(),
+        }
+    }
+
     /// The share of the light that goes through without a bend, per channel in `[0, 1]`; 0 where it is bent or scattered.
     #[inline]
     pub(crate) fn straight(&self) -> Rgb {

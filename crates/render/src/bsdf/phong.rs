@@ -86,6 +86,17 @@ impl PhongBsdf {
         self.odds[0] + self.odds[1] > 0.0
     }
 
+    /// See [`super::View::matte_pdf`].
+    #[inline]
+    pub(crate) fn matte_pdf(&self, wi: Vec3) -> f32 {
+        self.odds[0] * FRAC_1_PI * wi.z.max(0.0)
+    }
+
+    #[inline]
+    pub(crate) fn is_matte(&self) -> bool {
+        self.odds[0] > 0.0
+    }
+
     pub(crate) fn albedo(&self) -> Rgb {
         self.diffuse + self.mirror + self.transparency
     }

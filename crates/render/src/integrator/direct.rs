@@ -6,7 +6,7 @@ use crate::counters::RayCounters;
 use crate::sampler::Sampler;
 use crate::world::World;
 use heliostat_scene::RenderSettings;
-use heliostat_scene::settings::DepthLimits;
+use heliostat_scene::settings::{Caustics, DepthLimits};
 
 /// Direct light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,7 +16,12 @@ impl Direct {
     /// By the settings for the background.
     pub fn new(settings: &RenderSettings) -> Self {
         let depth_limits = DepthLimits { total: 0, ..DepthLimits::default() };
-        Self(Path::new(&RenderSettings { depth_limits, clamp_indirect: None, ..settings.clone() }))
+        Self(Path::new(&RenderSettings {
+            depth_limits,
+            clamp_indirect: None,
+            caustics: Caustics::Paths,
+            ..settings.clone()
+        }))
     }
 }
 

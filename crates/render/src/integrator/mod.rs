@@ -16,6 +16,9 @@ mod uv;
 mod volpath;
 mod whitted;
 
+pub(crate) use next_event::left_of;
+pub(crate) use path::{CERTAIN, HOLES, MOST_CERTAIN};
+
 pub use ambient_occlusion::AmbientOcclusion;
 pub use cost::Cost;
 pub use depth::Depth;
@@ -35,6 +38,7 @@ use glam::{Vec2, Vec3};
 use heliostat_geometry::Ray;
 use heliostat_scene::settings::IntegratorKind;
 use heliostat_scene::{MaterialId, RenderSettings, Rgb};
+use std::ops::Range;
 
 /// A ray of the camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,6 +102,21 @@ pub trait Integrator: Sync {
         sampler: &mut Sampler,
         counters: &mut RayCounters,
     ) -> Sample;
+
+    /// How many samples in a row something has to be worked out for beforehand, at most; `None` where nothing has to be.
+    fn samples_at_once(&self) -> Option<u32> {
+        None
+    }
+
+    /// The integrator for some samples in a row, with what was worked out for them: the same for whatever range holds a sample.
+    /// `None` where it is this one.
+    fn for_samples<'a>(
+        &'a self,
+        _world: &World<'_>,
+        _samples: Range<u32>,
+    ) -> Option<Box<dyn Integrator + 'a>> {
+        None
+    }
 }
 
 /// The integrator that the settings name.

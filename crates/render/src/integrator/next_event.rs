@@ -22,7 +22,7 @@ pub(super) fn heuristic(own: f32, other: f32) -> f32 {
 /// # Source
 /// The law of Bouguer, Lambert and Beer.
 #[inline]
-pub(super) fn left_of(absorption: Rgb, way: f32) -> Rgb {
+pub(crate) fn left_of(absorption: Rgb, way: f32) -> Rgb {
     if absorption == Rgb::ZERO { Rgb::ONE } else { (-way * absorption).exp() }
 }
 

@@ -16,18 +16,19 @@ use crate::counters::RayCounters;
 use crate::interiors::Interiors;
 use crate::light::{self, Lookout};
 use crate::path_point::{Covering, Onward, PathPoint};
+use crate::photons::{Bounces, PhotonMap, PhotonSettings, Photons};
 use crate::sampler::Sampler;
 use crate::world::{Eye, Owner, PassingRay, SurfaceHit, World};
 use heliostat_scene::settings::DepthLimits;
 use heliostat_scene::{RenderSettings, Rgb};
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 /// After so many scatterings paths end by chance. Sooner, glass and metal in a room got more noise for their time.
-pub(super) const CERTAIN: u32 = 8;
+pub(crate) const CERTAIN: u32 = 8;
 /// The largest probability with which such a path goes on.
-pub(super) const MOST_CERTAIN: f32 = 0.95;
+pub(crate) const MOST_CERTAIN: f32 = 0.95;
 /// The branch of the random numbers that decide about holes.
-pub(super) const HOLES: u32 = 0;
+pub(crate) const HOLES: u32 = 0;
 
 /// Paths of light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,6 +36,19 @@ pub struct Path {
     limits: DepthLimits,
     clamp: f32,
     transparent_background: bool,
+    photons: Option<PhotonSettings>,
+}
+
+/// Paths of some samples, with photons where they are asked for.
+struct Paths<'a> {
+    path: &'a Path,
+    photons: Option<&'a Photons>,
+}
+
+/// Paths that hold the photons of their samples.
+struct WithPhotons<'a> {
+    path: &'a Path,
+    photons: Photons,
 }
 
 /// A path on its way.
@@ -50,6 +64,8 @@ struct Way {
     scattered: Option<(Lookout, f32)>,
     /// What happened last.
     after: Option<Event>,
+    /// How it comes from the last matte layer, for photons.
+    since_matte: Since,
     depth: Depth,
     /// Whether it comes straight from the camera, cut-outs aside: invisible objects are not seen.
     from_camera: bool,
@@ -57,6 +73,17 @@ struct Way {
     passed_only: bool,
     /// Whether it looks for lights alone, and ends with the next surface.
     is_last: bool,
+}
+
+/// What has happened since a path was scattered by a matte layer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Since {
+    /// It was scattered otherwise, or never.
+    Never,
+    /// Nothing.
+    Nothing,
+    /// It was reflected by mirrors or refracted by clear glass: light that it meets is a caustic.
+    Smooth,
 }
 
 /// What a path has found.
@@ -85,11 +112,46 @@ impl Path {
             limits: settings.depth_limits,
             clamp: settings.clamp_indirect.unwrap_or(f32::INFINITY),
             transparent_background: settings.transparent_background,
+            photons: PhotonSettings::of(settings),
         }
     }
 }
 
 impl Integrator for Path {
+    /// Without photons: a caustic is found by chance, or not.
+    fn radiance(
+        &self,
+        world: &World<'_>,
+        ray: &CameraRay,
+        sampler: &mut Sampler,
+        counters: &mut RayCounters,
+    ) -> Sample {
+        Paths { path: self, photons: None }.radiance(world, ray, sampler, counters)
+    }
+
+    fn samples_at_once(&self) -> Option<u32> {
+        self.photons.map(|photons| photons.at_once())
+    }
+
+    fn for_samples<'a>(&'a self, world: &World<'_>, samples: Range<u32>) -> Option<Box<dyn Integrator + 'a>> {
+        let photons = self.photons?.photons(world, samples)?;
+        Some(Box::new(WithPhotons { path: self, photons }))
+    }
+}
+
+impl Integrator for WithPhotons<'_> {
+    fn radiance(
+        &self,
+        world: &World<'_>,
+        ray: &CameraRay,
+        sampler: &mut Sampler,
+        counters: &mut RayCounters,
+    ) -> Sample {
+        Paths { path: self.path, photons: Some(&self.photons) }.radiance(world, ray, sampler, counters)
+    }
+}
+
+impl Paths<'_> {
     fn radiance(
         &self,
         world: &World<'_>,
@@ -104,6 +166,7 @@ impl Integrator for Path {
             weight: Rgb::ONE,
             scattered: None,
             after: None,
+            since_matte: Since::Never,
             depth: Depth::default(),
             from_camera: true,
             passed_only: true,
@@ -115,9 +178,7 @@ impl Integrator for Path {
         }
         Sample { radiance: found.radiance, alpha: 1.0 - found.through, first: found.first }
     }
-}
 
-impl Path {
     /// Follows a path to the next surface, adds what it finds there, and sends it on.
     fn follow(
         &self,
@@ -178,12 +239,16 @@ impl Path {
             let by_chance = (choices.x, draws.next_2d());
             let light =
                 way.weight * from_lights(world, &point, way.around.ruling(), by_chance, weight, counters);
-            found.radiance += self.clamped(light, way.depth.total);
+            found.radiance += self.path.clamped(light, way.depth.total);
+        }
+        if let Some(map) = self.photons.and_then(|photons| photons.of(draws.sample())) {
+            let light = way.weight * self.caustic(map, &point, surface, &way.depth);
+            found.radiance += self.path.clamped(light, way.depth.total);
         }
         let onward = point.sample(&way.passing, choices.y, draws.next_2d());
         let Some(onward) = onward else { return ControlFlow::Break(()) };
         onward.count(counters);
-        way.go_on(&onward, &point, &self.limits);
+        way.go_on(&onward, &point, &self.path.limits);
         way.roulette(&mut draws)
     }
 
@@ -193,15 +258,19 @@ impl Path {
         if shine == Rgb::ZERO {
             return;
         }
+        let is_caustic = way.since_matte == Since::Smooth;
+        if is_caustic && self.photons.is_some_and(|photons| photons.are_of(world, surface)) {
+            return;
+        }
         let share = way
             .scattered
             .map_or(1.0, |(from, pdf)| heuristic(pdf, world.light_table().density(&from, surface)));
-        found.radiance += self.clamped(share * way.weight * shine, way.depth.total.saturating_sub(1));
+        found.radiance += self.path.clamped(share * way.weight * shine, way.depth.total.saturating_sub(1));
     }
 
     /// Adds what comes from infinitely far, or leaves it transparent.
     fn leave(&self, world: &World<'_>, way: &Way, found: &mut Found) {
-        if self.transparent_background && way.passed_only {
+        if self.path.transparent_background && way.passed_only {
             found.through = way.weight.element_sum() / 3.0;
             return;
         }
@@ -209,11 +278,32 @@ impl Path {
         let radiance = match &way.scattered {
             Some((from, pdf)) => lights.beyond(from, dir, |other| heuristic(*pdf, other)),
             None if way.passed_only => lights.seen(dir),
+            None if way.since_matte == Since::Smooth && self.photons.is_some_and(Photons::are_from_afar) => {
+                lights.mirrored_sky(dir)
+            }
             None => lights.mirrored(dir),
         };
-        found.radiance += self.clamped(way.weight * radiance, way.depth.total.saturating_sub(1));
+        found.radiance += self.path.clamped(way.weight * radiance, way.depth.total.saturating_sub(1));
     }
 
+    /// What a matte layer sends on of the photons near a point, over what has arrived at it: radiance where paths carry 1.
+    fn caustic(&self, map: &PhotonMap, point: &PathPoint<'_>, surface: &SurfaceHit, depth: &Depth) -> Rgb {
+        if !point.is_matte() {
+            return Rgb::ZERO;
+        }
+        let (at, mut sum) = (&surface.hit.at, Rgb::ZERO);
+        map.near(at.p, at.ng, |photon, density| {
+            let cos = photon.to_light.dot(at.ng).abs();
+            if cos > 0.0 && depth.admits(&photon.bounces, &self.path.limits) {
+                // The cosine of the value belongs to radiance; photons have it already, by the geometric normal.
+                sum += density / cos * photon.flux * point.matte(photon.to_light);
+            }
+        });
+        sum
+    }
+}
+
+impl Path {
     /// Light that was scattered so often before, weakened to what is let through of indirect light.
     #[inline]
     fn clamped(&self, light: Rgb, scatterings: u32) -> Rgb {
@@ -260,6 +350,11 @@ impl Way {
         self.from_camera = false;
         self.passed_only &= sample.event == Event::Transmission;
         if !onward.is_straight {
+            self.since_matte = match (sample.is_delta(), self.since_matte) {
+                (false, _) if sample.event == Event::Diffuse => Since::Nothing,
+                (false, _) | (true, Since::Never) => Since::Never,
+                (true, Since::Nothing | Since::Smooth) => Since::Smooth,
+            };
             self.scattered = if sample.is_delta() { None } else { Some((point.lookout(), sample.pdf)) };
         }
         self.is_last |= self.depth.grow(sample.event, limits);
@@ -291,6 +386,16 @@ impl Depth {
         *count += 1;
         self.total += 1;
         *count > limit || self.total > limits.total
+    }
+
+    /// Whether a path that is scattered here by a matte layer may go on as the photon came.
+    fn admits(&self, bounces: &Bounces, limits: &DepthLimits) -> bool {
+        let Bounces { total, glossy, transmission } = *bounces;
+        // The last scattering before a light may be one too many of all.
+        self.total + u32::from(total) <= limits.total
+            && self.diffuse < limits.diffuse
+            && self.glossy + u32::from(glossy) <= limits.glossy
+            && self.transmission + u32::from(transmission) <= limits.transmission
     }
 
     /// Counts a scattering by a medium; whether that was one too many.

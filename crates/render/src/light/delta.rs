@@ -92,14 +92,7 @@ impl PointLight {
             return None;
         }
         let to_light = to_light / distance_squared.sqrt();
-        let share = match &self.spread {
-            Spread::Even => 1.0,
-            Spread::Cone(cone) => cone.share(-to_light),
-            Spread::Measured(frame, profile) => {
-                let dir = frame.to_local(-to_light);
-                profile.intensity(dir.z.clamp(-1.0, 1.0).acos(), dir.y.atan2(dir.x))
-            }
-        };
+        let share = self.share(-to_light);
         if share == 0.0 {
             return None;
         }
@@ -113,6 +106,35 @@ impl PointLight {
             pdf: f32::INFINITY,
             target: Target::Point(self.position),
         })
+    }
+}
+
+impl PointLight {
+    /// Whether it weakens with the distance, as light does.
+    pub(super) fn falls_off(&self) -> bool {
+        self.falloff == Falloff::InverseSquare
+    }
+
+    pub(super) fn position(&self) -> Vec3 {
+        self.position
+    }
+
+    /// What it sends in the unit direction `dir`, in W/sr.
+    pub(super) fn intensity(&self, dir: Vec3) -> Rgb {
+        self.share(dir) * self.intensity
+    }
+
+    /// The share of its intensity that it sends in the unit direction `dir`.
+    #[inline]
+    fn share(&self, dir: Vec3) -> f32 {
+        match &self.spread {
+            Spread::Even => 1.0,
+            Spread::Cone(cone) => cone.share(dir),
+            Spread::Measured(frame, profile) => {
+                let dir = frame.to_local(dir);
+                profile.intensity(dir.z.clamp(-1.0, 1.0).acos(), dir.y.atan2(dir.x))
+            }
+        }
     }
 }
 

@@ -10,6 +10,7 @@ mod choice;
 mod cluster;
 mod delta;
 pub(crate) mod direct;
+pub(crate) mod emission;
 mod emitter;
 mod flat;
 mod lamps;

@@ -67,6 +67,16 @@ impl LightTable<'_> {
         self.sky.seen(dir) + self.suns.iter().map(sun).sum::<Rgb>()
     }
 
+    /// What a mirror shows of infinitely far away, without what has a shape there.
+    pub(crate) fn mirrored_sky(&self, dir: Vec3) -> Rgb {
+        self.sky.seen(dir)
+    }
+
+    /// The index of the light that a hit lies on, if it is one.
+    pub(crate) fn light_of(&self, hit: &SurfaceHit) -> Option<usize> {
+        self.owners.light_of(hit)
+    }
+
     /// What the camera sees of infinitely far away: lights hide from it, the sun of the sky does not.
     pub(crate) fn seen(&self, dir: Vec3) -> Rgb {
         let disk = |&sun: &usize| match &self.lights[sun].source {

@@ -2,6 +2,7 @@
 
 mod few;
 
+use super::World;
 use super::blocker::Blocker;
 use super::solid::Solid;
 pub(super) use few::{FEW, FewBoxes};
@@ -32,6 +33,15 @@ impl Ball {
         // A ray that crosses a surface starts a few error bounds before it.
         let radius = radius + gamma(32) * (centre.length() + radius);
         Self { centre, radius_squared: radius * radius }
+    }
+}
+
+impl World<'_> {
+    /// A ball around an object whose surface is one: its centre and radius, rounded up.
+    pub(crate) fn ball_around(&self, object: u32) -> Option<(Vec3, f32)> {
+        let Some(Blocker::Sphere(sphere)) = self.solids[object as usize].blocker else { return None };
+        let (centre, radius) = (sphere.centre.as_vec3(), sphere.radius as f32);
+        Some((centre, radius + gamma(4) * (centre.length() + radius)))
     }
 }
 

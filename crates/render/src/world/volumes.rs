@@ -206,6 +206,11 @@ impl<'s> World<'s> {
         self.seen_on(thing, passing, time)
     }
 
+    /// A box around an object over the shutter.
+    pub(crate) fn bounds_of_object(&self, object: u32) -> Aabb {
+        self.solids[object as usize].bounds
+    }
+
     /// A box around a thing.
     pub(crate) fn bounds_of(&self, thing: Thing) -> Aabb {
         self.solids[thing.solid as usize].bounds

@@ -65,6 +65,21 @@ impl<'b> View<'b> {
         is_rough || cover.coat.as_ref().is_some_and(|coat| coat.ggx.is_some()) || !fill.is_empty()
     }
 
+    /// See [`crate::bsdf::View::matte_pdf`].
+    pub(crate) fn matte_pdf(&self, wi: Vec3) -> f32 {
+        if wi.z > 0.0 {
+            let fibres = self.share(Way::Fibres) * warp::hemisphere_pdf(wi);
+            fibres + self.share(Way::Up) * warp::cosine_hemisphere_pdf(wi)
+        } else {
+            self.share(Way::Down) * warp::cosine_hemisphere_pdf(-wi)
+        }
+    }
+
+    /// Whether it sends light on from all around.
+    pub(crate) fn is_matte(&self) -> bool {
+        self.share(Way::Fibres) + self.share(Way::Up) + self.share(Way::Down) > 0.0
+    }
+
     /// Whether anything from below is drawn.
     pub(crate) fn is_open(&self) -> bool {
         self.bsdf.base.passage != Passage::Closed || self.share(Way::Down) > 0.0

@@ -12,7 +12,7 @@ use crate::world::{Chain, Hull, Lamp, Now, Place};
 use crate::world_sphere::WorldSphere;
 use glam::{Vec2, Vec3};
 use heliostat_geometry::shape::Sphere;
-use heliostat_geometry::{Aabb, Shape, SurfacePoint, Transform};
+use heliostat_geometry::{Aabb, Shape, SurfacePoint, SurfaceSample, Transform};
 use heliostat_scene::light::{Falloff, LightKind};
 use heliostat_scene::object::Geometry;
 use heliostat_scene::{Light, Object, Rgb};
@@ -257,15 +257,31 @@ impl<'s> AreaLight<'s> {
 
     /// One point of a piece of any surface, by local area and brightness.
     fn sample_by_area(&self, p: Vec3, piece: usize, u: Vec2, time: f32) -> Option<LightSample> {
-        let sample = self.emitter.sample(piece, u)?;
-        let on_light = self.stand.now(time)?.sample_to_world(&sample.point);
+        let (on_light, radiance) = self.point(piece, u, time)?;
         let (to_light, share) = self.share(on_light.at.p - p, on_light.at.ng, on_light.pdf.recip())?;
         Some(LightSample {
             to_light,
-            arriving: share * self.glow.radiance(sample.slot, sample.at),
+            arriving: share * radiance,
             pdf: self.density_of(share),
             target: self.target(on_light.at),
         })
+    }
+
+    /// A point of a piece, and the radiance there.
+    pub(super) fn point(&self, piece: usize, u: Vec2, time: f32) -> Option<(SurfaceSample, Rgb)> {
+        let sample = self.emitter.sample(piece, u)?;
+        let on_light = self.stand.now(time)?.sample_to_world(&sample.point);
+        Some((on_light, self.glow.radiance(sample.slot, sample.at)))
+    }
+
+    /// Whether it weakens with the distance, as light does.
+    pub(super) fn falls_off(&self) -> bool {
+        self.falloff == Falloff::InverseSquare
+    }
+
+    /// Whether it shines to the side of its surface to which a direction leads that has this cosine to the normal.
+    pub(super) fn shines(&self, cos: f32) -> bool {
+        cos > 0.0 || self.two_sided
     }
 
     /// One point of a sphere by the solid angle under which it is seen; `None` inside.
