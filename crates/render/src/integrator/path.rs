@@ -210,11 +210,8 @@ impl Paths<'_> {
         // Go on where the surface is cut away.
         let covering = Covering::new(world, surface, material);
         let opacity = covering.opacity();
-        if opacity < 1.0 && draws.fork(HOLES).next_1d() >= opacity {
-            way.pass(&covering, surface, counters);
-            return ControlFlow::Continue(());
-        }
-        if covering.is_hidden(surface, &way.around) {
+        let is_hole = opacity < 1.0 && draws.fork(HOLES).next_1d() >= opacity;
+        if is_hole || covering.is_hidden(surface, &way.around) {
             way.pass(&covering, surface, counters);
             return ControlFlow::Continue(());
         }
@@ -315,11 +312,7 @@ impl Path {
 impl Way {
     /// Who looks along it.
     fn eye(&self) -> Eye {
-        match (self.from_camera, &self.scattered) {
-            (true, _) => Eye::Camera,
-            (false, Some(_)) => Eye::Scattered,
-            (false, None) => Eye::Any,
-        }
+        Eye::of_path(self.from_camera, self.scattered.is_some())
     }
 
     /// Weakens it by the glass that it came through: the one that it is in, or one that it leaves and was not known to be

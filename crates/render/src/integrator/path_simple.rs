@@ -192,11 +192,7 @@ impl Leg {
 
     /// Who looks along it.
     fn eye(&self) -> Eye {
-        match (self.from_camera, &self.asked) {
-            (true, _) => Eye::Camera,
-            (false, Some(_)) => Eye::Scattered,
-            (false, None) => Eye::Any,
-        }
+        Eye::of_path(self.from_camera, self.asked.is_some())
     }
 
     /// Whether the light of that surface was asked for where the ray comes from.

@@ -125,11 +125,7 @@ impl PreparedMedium<'_> {
                 let step = free_way(u.x, rate);
                 // Written so that an endless way ends.
                 if t + step >= block.to || step == f32::INFINITY {
-                    let rest = transmitted(most, block.to - t);
-                    let through = rest / lead.of(rest);
-                    *carried *= through;
-                    lead.own *= through;
-                    lead.asked *= through;
+                    leave_block(most, block.to - t, lead, carried);
                     break;
                 }
                 t += step;
@@ -162,11 +158,7 @@ impl PreparedMedium<'_> {
                 let u = draws.next_2d();
                 let step = free_way(u.x, rate);
                 if t + step >= block.to || step == f32::INFINITY {
-                    let rest = transmitted(most, block.to - t);
-                    let through = rest / lead.of(rest);
-                    *carried *= through;
-                    lead.own *= through;
-                    lead.asked *= through;
+                    leave_block(most, block.to - t, lead, carried);
                     break;
                 }
                 t += step;
@@ -193,4 +185,13 @@ impl PreparedMedium<'_> {
 #[inline]
 fn free_way(u: f32, rate: f32) -> f32 {
     if rate > 0.0 { -(-u).ln_1p() / rate } else { f32::INFINITY }
+}
+
+/// What is carried out of a block of a grid, after the way that is left in it.
+fn leave_block(most: Rgb, way: f32, lead: &mut Lead, carried: &mut Rgb) {
+    let rest = transmitted(most, way);
+    let through = rest / lead.of(rest);
+    *carried *= through;
+    lead.own *= through;
+    lead.asked *= through;
 }

@@ -15,6 +15,16 @@ pub(crate) enum Eye {
 }
 
 impl Eye {
+    /// The eye of a path that comes straight from the camera, or was scattered where lights are asked, or neither.
+    #[inline]
+    pub(crate) fn of_path(from_camera: bool, is_scattered: bool) -> Self {
+        match (from_camera, is_scattered) {
+            (true, _) => Self::Camera,
+            (false, true) => Self::Scattered,
+            (false, false) => Self::Any,
+        }
+    }
+
     /// Whether it sees an object, or a group placed by one.
     #[inline]
     pub(crate) fn sees(self, object: &Object) -> bool {

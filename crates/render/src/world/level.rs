@@ -191,11 +191,7 @@ impl Level {
         mut hit: impl FnMut(u32, &Ray) -> bool,
     ) -> bool {
         match (&self.search, self.few_bits(candidates)) {
-            (Search::Few(boxes), _) => {
-                let asked = boxes.entries(ray).may_meet.into();
-                let asked = candidates.among(Candidates::Some(asked));
-                self.few_bits(asked).is_some_and(|asked| bits::places(asked).any(|i| hit(self.ids[i], ray)))
-            }
+            (Search::Few(boxes), few) => met_of_few(boxes, ray, few).any(|i| hit(self.ids[i], ray)),
             (Search::Tree(_), Some(few)) => {
                 bits::places(few).any(|i| self.bounds[i].may_meet(ray) && hit(self.ids[i], ray))
             }
@@ -207,13 +203,19 @@ impl Level {
     #[inline]
     pub(super) fn each(&self, ray: &Ray, candidates: Candidates, mut visit: impl FnMut(u32)) {
         match (&self.search, self.few_bits(candidates)) {
-            (Search::Tree(tree), None) => tree.for_each_hit(ray, |i| visit(self.ids[i as usize])),
-            (_, Some(few)) => {
+            (Search::Few(boxes), few) => met_of_few(boxes, ray, few).for_each(|i| visit(self.ids[i])),
+            (Search::Tree(_), Some(few)) => {
                 bits::places(few).filter(|&i| self.bounds[i].may_meet(ray)).for_each(|i| visit(self.ids[i]));
             }
-            (Search::Few(_), None) => self.ids.iter().for_each(|&id| visit(id)),
+            (Search::Tree(tree), None) => tree.for_each_hit(ray, |i| visit(self.ids[i as usize])),
         }
     }
+}
+
+/// Those of a few boxes that a ray may meet, among the candidates if there are any.
+#[inline]
+fn met_of_few(boxes: &FewBoxes, ray: &Ray, candidates: Option<u64>) -> impl Iterator<Item = usize> {
+    bits::places(candidates.unwrap_or(u64::MAX) & u64::from(boxes.entries(ray).may_meet))
 }
 
 /// A question whose answer is kept beside the distance, for indices that choose among answers.

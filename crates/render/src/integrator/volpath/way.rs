@@ -58,11 +58,7 @@ impl Way {
 
     /// Who looks along it.
     pub(super) fn eye(&self) -> Eye {
-        match (self.from_camera, &self.scattered) {
-            (true, _) => Eye::Camera,
-            (false, Some(_)) => Eye::Scattered,
-            (false, None) => Eye::Any,
-        }
+        Eye::of_path(self.from_camera, self.scattered.is_some())
     }
 
     /// Flies through a medium up to `end` lengths of the ray: where it is scattered, `None` where it gets through.
