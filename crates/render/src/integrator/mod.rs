@@ -12,12 +12,14 @@ mod next_event;
 mod normals;
 mod path;
 mod path_simple;
+mod roulette;
 mod uv;
 mod volpath;
 mod whitted;
 
 pub(crate) use next_event::left_of;
-pub(crate) use path::{CERTAIN, HOLES, MOST_CERTAIN};
+pub(crate) use path::HOLES;
+pub(crate) use roulette::survive;
 
 pub use ambient_occlusion::AmbientOcclusion;
 pub use cost::Cost;

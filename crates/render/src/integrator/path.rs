@@ -6,10 +6,11 @@
 //!
 //! # Source
 //! Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach, "Robust Monte Carlo Methods for Light Transport Simulation", Stanford,
-//! 1997; Arvo, Kirk, "Particle Transport and Image Synthesis", SIGGRAPH 1990 (Russian roulette).
+//! 1997.
 
 use super::first::on_light;
 use super::next_event::{from_lights, heuristic, left_of};
+use super::roulette::survive;
 use super::{CameraRay, FirstHit, Integrator, Sample};
 use crate::bsdf::Event;
 use crate::counters::RayCounters;
@@ -23,10 +24,6 @@ use heliostat_scene::settings::DepthLimits;
 use heliostat_scene::{RenderSettings, Rgb};
 use std::ops::{ControlFlow, Range};
 
-/// After so many scatterings paths end by chance. Sooner, glass and metal in a room got more noise for their time.
-pub(crate) const CERTAIN: u32 = 8;
-/// The largest probability with which such a path goes on.
-pub(crate) const MOST_CERTAIN: f32 = 0.95;
 /// The branch of the random numbers that decide about holes.
 pub(crate) const HOLES: u32 = 0;
 
@@ -356,13 +353,7 @@ impl Way {
     /// Ends it by chance if it carries little.
     #[inline]
     fn roulette(&mut self, draws: &mut Sampler) -> ControlFlow<()> {
-        if self.depth.total > CERTAIN {
-            let survives = self.weight.max_element().min(MOST_CERTAIN);
-            if draws.next_1d() >= survives {
-                return ControlFlow::Break(());
-            }
-            self.weight /= survives;
-        }
+        self.weight /= survive(self.weight, self.depth.total, draws)?;
         ControlFlow::Continue(())
     }
 }

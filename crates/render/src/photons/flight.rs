@@ -8,7 +8,7 @@
 
 use super::map::{Bounces, Photon};
 use crate::bsdf::Event;
-use crate::integrator::{CERTAIN, HOLES, MOST_CERTAIN, left_of};
+use crate::integrator::{HOLES, left_of, survive};
 use crate::interiors::Interiors;
 use crate::light::emission::Emitted;
 use crate::path_point::{Covering, PathPoint};
@@ -122,15 +122,7 @@ impl<'w, 's> Flight<'w, 's> {
 
     /// Ends it by chance if little is left of it, as paths are ended.
     fn roulette(&mut self, draws: &mut Sampler) -> ControlFlow<()> {
-        if u32::from(self.bounces.total) > CERTAIN {
-            let survives = self.weight.max_element().min(MOST_CERTAIN);
-            // Written so that a weight that is no number ends it.
-            let goes_on = draws.next_1d() < survives;
-            if !goes_on {
-                return ControlFlow::Break(());
-            }
-            self.weight /= survives;
-        }
+        self.weight /= survive(self.weight, self.bounces.total.into(), draws)?;
         ControlFlow::Continue(())
     }
 }

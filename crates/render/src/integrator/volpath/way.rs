@@ -2,7 +2,8 @@
 
 use crate::bsdf::Event;
 use crate::integrator::next_event::left_of;
-use crate::integrator::path::{CERTAIN, Depth, MOST_CERTAIN};
+use crate::integrator::path::Depth;
+use crate::integrator::roulette::survive;
 use crate::interiors::Interiors;
 use crate::light::Lookout;
 use crate::medium::flight;
@@ -148,17 +149,7 @@ impl Way {
     /// Ends it by chance if it carries little. In a medium that scatters all no light is lost, and no path ends by chance; between
     /// surfaces that reflect all, some must.
     pub(super) fn roulette(&mut self, draws: &mut Sampler) -> ControlFlow<()> {
-        if self.depth.all() <= CERTAIN {
-            return ControlFlow::Continue(());
-        }
-        let most = if self.depth.total > CERTAIN { MOST_CERTAIN } else { 1.0 };
-        let survives = self.settled().max_element().min(most);
-        // Written so that a weight that is no number ends it.
-        let goes_on = draws.next_1d() < survives;
-        if !goes_on {
-            return ControlFlow::Break(());
-        }
-        self.weight /= survives;
+        self.weight /= survive(self.settled(), self.depth.total, draws)?;
         ControlFlow::Continue(())
     }
 }
