@@ -9,7 +9,7 @@ use crate::layers::{self, Raster};
 use crate::meta::meta;
 use crate::post_dof;
 use heliostat_scene::settings::PixelRect;
-use heliostat_scene::{Camera, Frame, RenderSettings};
+use heliostat_scene::{Camera, Frame, RenderSettings, Scene};
 
 /// The samples by which a filter shares out its signs, and sees whether there is only one.
 fn planned_samples(settings: &RenderSettings) -> u32 {
@@ -29,12 +29,13 @@ pub(crate) struct Plan<'s> {
 
 impl<'s> Plan<'s> {
     /// A plan of settings and a camera that were checked.
-    pub(crate) fn new(camera: &'s Camera, settings: &RenderSettings) -> Self {
+    pub(crate) fn new(scene: &Scene, camera: &'s Camera, settings: &RenderSettings) -> Self {
+        let is_filtered = settings.mip_maps && !scene.textures.is_empty();
         let rays = CameraRays::new(camera, settings.width, settings.height);
         Self {
             settings: settings.clone(),
             camera,
-            rays: if settings.mip_maps { rays.with_cones(planned_samples(settings)) } else { rays },
+            rays: if is_filtered { rays.with_cones(planned_samples(settings)) } else { rays },
             filter: PixelFilter::new(settings.filter, settings.filter_radius, planned_samples(settings)),
         }
     }

@@ -95,7 +95,7 @@ impl<'s> Prepared<'s> {
         cache: &mut TreeCache,
     ) -> Result<Self, RenderError> {
         let camera = check(scene, settings)?;
-        let mut plan = Plan::new(camera, settings);
+        let mut plan = Plan::new(scene, camera, settings);
         plan.reserve()?;
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(settings.threads)

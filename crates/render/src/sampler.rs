@@ -113,7 +113,8 @@ impl Sampler {
     /// A number in `[0, 1)`; stratified over the samples of the pixel.
     #[inline]
     pub fn next_1d(&mut self) -> f32 {
-        self.next_2d().x
+        let scramble = self.next_scramble();
+        scramble.first(scramble.shuffled(self.sample))
     }
 
     /// A point of the unit square `[0, 1)²`; stratified over the samples of the pixel.
@@ -243,10 +244,15 @@ impl Scramble {
     /// Point `index` of the sequence.
     #[inline(always)]
     fn point(self, index: u32) -> Vec2 {
-        // Scramble: the bits of a Sobol coordinate, reversed, are those of the index times a matrix.
-        let x = owen_scramble_rev(index ^ self.shift[0], self.x).reverse_bits();
         let y = owen_scramble_rev(pascal(index) ^ self.shift[1], self.y).reverse_bits();
-        Vec2::new(to_unit(x), to_unit(y))
+        Vec2::new(self.first(index), to_unit(y))
+    }
+
+    /// The first coordinate of point `index`.
+    #[inline(always)]
+    fn first(self, index: u32) -> f32 {
+        // Scramble: the bits of a Sobol coordinate, reversed, are those of the index times a matrix.
+        to_unit(owen_scramble_rev(index ^ self.shift[0], self.x).reverse_bits())
     }
 }
 

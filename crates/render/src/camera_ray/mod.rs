@@ -77,7 +77,7 @@ impl CameraRays {
         let neighbours = [DVec2::X, DVec2::Y].map(|step| {
             let other = self.picture.ray(place + step).or_else(|| self.picture.ray(place - step));
             let other = other.unwrap_or(*ray);
-            (ray.origin.distance(other.origin), ray.dir.angle_between(other.dir))
+            (ray.origin.distance(other.origin), small_angle(ray.dir, other.dir))
         });
         let mean = |a: f64, b: f64| (a * b).sqrt() as f32;
         let [(right, turn), (down, tilt)] = neighbours;
@@ -164,6 +164,11 @@ impl CameraRays {
         let origin = pinhole.origin + opening.x * right + opening.y * up;
         LocalRay { origin, dir: in_focus - origin }
     }
+}
+
+/// The angle between two directions that are close to each other, by its sine.
+fn small_angle(a: DVec3, b: DVec3) -> f64 {
+    (a.cross(b).length_squared() / (a.length_squared() * b.length_squared())).sqrt()
 }
 
 /// The right and up of a lens that faces `dir`, level with the camera.

@@ -53,7 +53,7 @@ pub struct CameraRay {
     pub eye: Vec3,
     /// Unit direction in which the camera looks at that time.
     pub forward: Vec3,
-    /// How much of the picture it stands for.
+    /// How much of the picture it stands for; no width where the scene has no textures to be filtered.
     pub cone: RayCone,
 }
 

@@ -14,6 +14,7 @@ pub(crate) mod emission;
 mod emitter;
 mod flat;
 mod lamps;
+mod points;
 mod sky;
 mod sphere;
 mod spherical_rectangle;
@@ -36,6 +37,7 @@ use heliostat_scene::object::Geometry;
 use heliostat_scene::settings::LightChoice;
 use heliostat_scene::{Light, MaterialId, Object, Rgb, Scene};
 use lamps::Lamps;
+use points::Points;
 use sky::Sky;
 use std::borrow::Cow;
 use std::f32::consts::FRAC_1_PI;
@@ -175,6 +177,7 @@ pub(crate) struct LightTable<'s> {
     suns: Vec<usize>,
     owners: Owners,
     sampler: LightSampler,
+    points: Points,
 }
 
 /// Which light a surface belongs to.
@@ -220,7 +223,8 @@ impl<'s> LightTable<'s> {
         };
         let suns = (0..lights.len()).filter(|&i| is_sun(&lights[i])).collect();
         let sampler = whole::sampler(&lights, &sky, choice);
-        Self { ambient, lights, sky, suns, owners, sampler }
+        let points = Points::new(&lights);
+        Self { ambient, lights, sky, suns, owners, sampler, points }
     }
 }
 

@@ -69,9 +69,16 @@ impl WorldRectangle {
         // Normals of the planes through p and each side, which have only two components.
         let normal = |edge: f32, along: f32| Vec2::new(along, edge) / Vec2::new(along, edge).length();
         let n = [normal(-low.y, z), normal(high.x, -z), normal(high.y, -z), normal(-low.x, z)];
-        let angle = |a: Vec2, b: Vec2| (-a.y * b.y).clamp(-1.0, 1.0).acos();
-        let g = [angle(n[0], n[1]), angle(n[1], n[2]), angle(n[2], n[3]), angle(n[3], n[0])];
-        let angles = [g[0] + g[1], g[2] + g[3]];
+        // Inner angles by their cosines and sines, two at a time: their sum is that of a product of complex numbers.
+        let turn = |a: Vec2, b: Vec2| {
+            let cos = -a.y * b.y;
+            Vec2::new(cos, ((1.0 - cos) * (1.0 + cos)).max(0.0).sqrt())
+        };
+        let angle = |a: Vec2, b: Vec2, c: Vec2| {
+            let sum = turn(a, b).rotate(turn(b, c)).to_angle();
+            if sum < 0.0 { sum + TAU } else { sum }
+        };
+        let angles = [angle(n[0], n[1], n[2]), angle(n[2], n[3], n[0])];
         let solid_angle = angles[0] + angles[1] - TAU;
         (solid_angle >= LEAST_ANGLE).then_some(SphericalRectangle {
             rectangle: self,

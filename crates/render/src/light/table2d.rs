@@ -14,6 +14,9 @@ pub(super) struct Table2d {
     rows: Vec<f64>,
     /// Running sums of the cells within each row, row by row.
     cells: Vec<f64>,
+    /// Guides to the rows, and to the cells of each row.
+    row_guides: Vec<u32>,
+    cell_guides: Vec<u32>,
 }
 
 impl Table2d {
@@ -23,14 +26,19 @@ impl Table2d {
             shares.chunks_exact(columns).flat_map(|row| sums::running(row.to_vec())).collect();
         let rows: Vec<_> = sums::running(cells.chunks_exact(columns).map(sums::total)).collect();
         let total = sums::total(&rows);
-        (total > 0.0 && total.is_finite()).then_some(Self { columns, rows, cells })
+        let row_guides = sums::guide(&rows).collect();
+        let cell_guides = cells.chunks_exact(columns).flat_map(sums::guide).collect();
+        let table = Self { columns, rows, cells, row_guides, cell_guides };
+        (total > 0.0 && total.is_finite()).then_some(table)
     }
 
     /// A point of the unit square, and the density there.
     #[inline]
     pub(super) fn sample(&self, u: Vec2) -> (Vec2, f32) {
-        let (row, y) = sums::pick(&self.rows, u.y);
-        let (column, x) = sums::pick(self.row(row), u.x);
+        let (row, y) = sums::pick_guided(&self.rows, &self.row_guides, u.y);
+        let guides = sums::guides(self.columns);
+        let cell_guides = &self.cell_guides[row * guides..(row + 1) * guides];
+        let (column, x) = sums::pick_guided(self.row(row), cell_guides, u.x);
         let at =
             Vec2::new((column as f32 + x) / self.columns as f32, (row as f32 + y) / self.rows.len() as f32);
         (at, self.density_in(row, column))

@@ -21,17 +21,31 @@ pub(crate) struct Lookout {
     pub(crate) is_open: bool,
 }
 
+impl Lookout {
+    /// A point of a medium.
+    pub(crate) fn in_medium(p: Vec3, time: f32) -> Self {
+        Self { p, n: Vec3::ZERO, time, is_open: true }
+    }
+}
+
 impl LightTable<'_> {
     /// Light for a point, by the random numbers `choice` and `u`, with everything that the choice of the light does to weight
     /// and density. `None` where nothing comes this way.
     #[inline]
     pub(crate) fn draw(&self, from: &Lookout, choice: f32, u: Vec2) -> Option<LightSample> {
+        Some(self.draw_one(from, choice, u)?.1)
+    }
+
+    /// [`Self::draw`] with the number of the light.
+    #[inline]
+    pub(crate) fn draw_one(&self, from: &Lookout, choice: f32, u: Vec2) -> Option<(usize, LightSample)> {
         let (Piece { light, piece }, probability) = self.sampler.pick(from, choice)?;
         let sample = match self.lights.get(light) {
-            Some(light) => light.sample(from.p, piece, u, from.time)?,
+            Some(source) => source.sample(from.p, piece, u, from.time)?,
             None => self.sky.sample(u)?,
         };
-        Some(LightSample { arriving: sample.arriving / probability, pdf: sample.pdf * probability, ..sample })
+        let (arriving, pdf) = (sample.arriving / probability, sample.pdf * probability);
+        Some((light, LightSample { arriving, pdf, ..sample }))
     }
 
     /// The density by solid angle with which [`Self::draw`] finds, from there, the light at a hit on a surface that shines;

@@ -38,6 +38,19 @@ impl Way {
 }
 
 impl PreparedMedium<'_> {
+    /// Whether it scatters, and does so alike everywhere.
+    #[inline]
+    pub(crate) fn is_even_fog(&self) -> bool {
+        self.grid.is_none() && self.scatters()
+    }
+
+    /// What a medium that is the same everywhere scatters of light per metre, after so many metres, and the density with which flights
+    /// end there, the mean of those of the channels.
+    pub(crate) fn scattered_after(&self, way: f32) -> (Rgb, f32) {
+        let through = transmitted(self.extinction, way);
+        (through * self.scattering, (through * self.extinction).element_sum() / 3.0)
+    }
+
     /// Whether it scatters; else it only absorbs.
     fn scatters(&self) -> bool {
         self.scattering != Rgb::ZERO

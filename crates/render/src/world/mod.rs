@@ -265,15 +265,25 @@ impl<'s> World<'s> {
         time: f32,
         eye: Eye,
     ) -> Option<SurfaceHit> {
-        let seen = self.nearest(passing, time, eye, |i| self.parameters[i as usize]);
-        let (Some(inside), Some(surface)) = (inside, &seen) else { return seen };
-        if surface.thing() == Some(inside.thing) {
-            return seen;
-        }
-        let exit = self.seen_on(inside.thing, passing, time).filter(|exit| {
+        let parameters = |i| self.parameters[i as usize];
+        // A hit is large: it is made where the caller wants it.
+        let Some(inside) = inside else { return self.nearest(passing, time, eye, parameters) };
+        let seen = self.nearest(passing, time, eye, parameters);
+        self.exit_before(seen.as_ref(), inside, passing, time).or(seen)
+    }
+
+    /// Where a ray leaves the glass that it is in, if what it meets next lies in the same place.
+    fn exit_before(
+        &self,
+        seen: Option<&SurfaceHit>,
+        inside: &Inside,
+        passing: &PassingRay,
+        time: f32,
+    ) -> Option<SurfaceHit> {
+        let surface = seen.filter(|surface| surface.thing() != Some(inside.thing))?;
+        self.seen_on(inside.thing, passing, time).filter(|exit| {
             exit.hit.at.ng.dot(passing.ray.dir) > 0.0 && coincide(&exit.hit.at, &surface.hit.at)
-        });
-        exit.or(seen)
+        })
     }
 
     /// The nearest surface of one thing on the way of a ray.

@@ -2,7 +2,7 @@
 //!
 //! The same as [`super::Path`] at surfaces. Between them a ray flies through what fills the space, and may be scattered there: a
 //! light is asked from that point as from one of a surface, and the path goes on by the phase function. Light that a surface
-//! lets in walks below it until it comes out ([`under`]).
+//! lets in walks below it until it comes out ([`under`]). Lamps in fog are asked from a second point of each way ([`beside`]).
 //!
 //! # Coverage
 //! A medium covers as much of a transparent background as it takes from light on its way through. Layers of data look
@@ -12,6 +12,7 @@
 //! As [`super::path`]; Miller, Georgiev, Jarosz, "A Null-Scattering Path Integral Formulation of Light Transport", SIGGRAPH 2019;
 //! Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th edition, section 14.2.
 
+mod beside;
 mod found;
 mod shadow;
 mod under;
@@ -25,13 +26,13 @@ use crate::counters::RayCounters;
 use crate::light::{self, Lookout};
 use crate::path_point::{Covering, PathPoint};
 use crate::sampler::Sampler;
-use crate::world::{Matter, Owner, PassingRay, SurfaceHit, World};
+use crate::world::{Owner, PassingRay, SurfaceHit, World};
+use beside::Stretch;
 use found::Found;
-use glam::Vec3;
-use heliostat_geometry::{Ray, SurfacePoint};
+use heliostat_geometry::Ray;
 use heliostat_scene::RenderSettings;
 use heliostat_scene::settings::DepthLimits;
-use shadow::Ask;
+use shadow::{Ask, ray_to};
 use std::ops::ControlFlow;
 use under::Walk;
 use way::Way;
@@ -41,6 +42,7 @@ const FLIGHT: u32 = 1;
 const SHADOW: u32 = 2;
 const WALK: u32 = 3;
 const OUTSIDE: u32 = 4;
+const LAMP: u32 = 5;
 
 /// Paths of light through media.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -101,8 +103,11 @@ impl VolPath {
         }
         if let Some(matter) = world.matter(&way.around) {
             let end = seen.map_or(f32::INFINITY, |surface| surface.hit.t);
-            if let Some(p) = way.fly(&matter, end, &mut step.draws.fork(FLIGHT)) {
-                return self.scatter(step, way, &matter, p, found);
+            if let Some(through) = way.through(&matter, end) {
+                let stretch = Stretch::new(world, matter.medium, through);
+                if let Some(t) = self.fly(step, way, &stretch, found) {
+                    return self.scatter(step, way, &stretch, t, found);
+                }
             }
         }
         let Some(surface) = &seen else {
@@ -222,13 +227,28 @@ impl VolPath {
         found.radiance += self.clamped(ask.answer(step, &way.around), way.depth.all());
     }
 
+    /// Flies through a medium: the distance at which the path is scattered, `None` where it gets through.
+    fn fly(
+        &self,
+        step: &mut Step<'_, '_, '_>,
+        way: &mut Way,
+        stretch: &Stretch<'_, '_>,
+        found: &mut Found,
+    ) -> Option<f32> {
+        if stretch.asks_lamps && !way.is_last {
+            let glow = stretch.glow(step, way.settled(), &way.around);
+            found.radiance += self.clamped(glow, way.depth.all());
+        }
+        way.fly(stretch.medium, &stretch.way, &mut step.draws.fork(FLIGHT))
+    }
+
     /// Asks a light for a point of a medium, and sends the path on from there.
     fn scatter(
         &self,
         step: &mut Step<'_, '_, '_>,
         way: &mut Way,
-        matter: &Matter<'_, '_>,
-        p: Vec3,
+        stretch: &Stretch<'_, '_>,
+        t: f32,
         found: &mut Found,
     ) -> ControlFlow<()> {
         if way.passed_only && found.first.is_none() {
@@ -239,27 +259,18 @@ impl VolPath {
             return ControlFlow::Break(());
         }
         step.counters.scatter += 1;
-        let dir = way.passing.ray.dir.normalize();
-        let from = Lookout { p, n: Vec3::ZERO, time: step.time, is_open: true };
-        let (choice, phase) = (step.draws.next_2d(), &matter.medium.phase);
-        if let Some(light) = step.world.light_table().draw(&from, choice.x, step.draws.next_2d()) {
+        let (dir, p) = (stretch.way.dir, stretch.way.at(t));
+        let from = Lookout::in_medium(p, step.time);
+        let (choice, phase) = (step.draws.next_2d(), &stretch.medium.phase);
+        let drawn = step.world.light_table().draw_one(&from, choice.x, step.draws.next_2d());
+        if let Some((lamp, light)) = drawn {
             let pdf = phase.density(dir, light.to_light);
-            let ray = ray_to(p, &light);
-            let ask = Ask { light: &light, ray, carried: way.weight * pdf, pdf };
+            let left = if stretch.asks_lamps { stretch.left(step, lamp, t) } else { 1.0 };
+            let ask = Ask { light: &light, ray: ray_to(p, &light), carried: left * pdf * way.weight, pdf };
             found.radiance += self.clamped(ask.answer(step, &way.around), way.depth.all());
         }
         let (to, pdf) = phase.sample(dir, step.draws.next_2d());
         way.scattered_by_medium(from, PassingRay::free(Ray::new(p, to)), pdf, &self.limits);
         way.roulette(&mut step.draws)
-    }
-}
-
-/// The shadow ray from a point of a medium.
-fn ray_to(p: Vec3, light: &light::LightSample) -> Ray {
-    let start = SurfacePoint { p, p_err: Vec3::ZERO, ng: light.to_light };
-    match &light.target {
-        light::Target::Sky => Ray::new(p, light.to_light),
-        light::Target::Point(target) => start.spawn_to(*target),
-        light::Target::Surface(at) => start.spawn_to_surface(at),
     }
 }

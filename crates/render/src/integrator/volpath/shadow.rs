@@ -3,13 +3,24 @@
 use super::{SHADOW, Step};
 use crate::integrator::next_event::{heuristic, left_of};
 use crate::interiors::Interiors;
-use crate::light::LightSample;
+use crate::light::{LightSample, Target};
 use crate::medium::flight;
 use crate::medium::lead::Lead;
 use crate::path_point::Covering;
 use crate::world::PassingRay;
-use heliostat_geometry::Ray;
+use glam::Vec3;
+use heliostat_geometry::{Ray, SurfacePoint};
 use heliostat_scene::Rgb;
+
+/// The shadow ray from a point of a medium.
+pub(super) fn ray_to(p: Vec3, light: &LightSample) -> Ray {
+    let start = SurfacePoint { p, p_err: Vec3::ZERO, ng: light.to_light };
+    match &light.target {
+        Target::Sky => Ray::new(p, light.to_light),
+        Target::Point(target) => start.spawn_to(*target),
+        Target::Surface(at) => start.spawn_to_surface(at),
+    }
+}
 
 /// A shadow ray passes so many boundaries of media at most.
 const MOST_BOUNDARIES: usize = 256;

@@ -6,12 +6,11 @@ use crate::integrator::path::Depth;
 use crate::integrator::roulette::survive;
 use crate::interiors::Interiors;
 use crate::light::Lookout;
-use crate::medium::flight;
 use crate::medium::lead::Lead;
+use crate::medium::{PreparedMedium, flight};
 use crate::path_point::{Covering, Onward, PathPoint};
 use crate::sampler::Sampler;
 use crate::world::{Eye, Matter, PassingRay, SurfaceHit};
-use glam::Vec3;
 use heliostat_scene::Rgb;
 use heliostat_scene::settings::DepthLimits;
 use std::ops::ControlFlow;
@@ -62,20 +61,26 @@ impl Way {
         Eye::of_path(self.from_camera, self.scattered.is_some())
     }
 
-    /// Flies through a medium up to `end` lengths of the ray: where it is scattered, `None` where it gets through.
-    pub(super) fn fly(&mut self, matter: &Matter<'_, '_>, end: f32, draws: &mut Sampler) -> Option<Vec3> {
+    /// Its way through a medium up to `end` lengths of the ray; `None` where the medium has ended before.
+    pub(super) fn through(&self, matter: &Matter<'_, '_>, end: f32) -> Option<flight::Way> {
         let ray = self.passing.ray;
         let length = ray.dir.length();
         let (dir, from, to) = (ray.dir / length, 0.0, end * length);
         let way = matter.clip(flight::Way { origin: ray.origin, dir, from, to });
-        let is_empty = way.from >= way.to;
-        if is_empty {
-            return None;
-        }
+        (way.from < way.to).then_some(way)
+    }
+
+    /// Flies on that way: the distance at which it is scattered, `None` where it gets through.
+    pub(super) fn fly(
+        &mut self,
+        medium: &PreparedMedium<'_>,
+        way: &flight::Way,
+        draws: &mut Sampler,
+    ) -> Option<f32> {
         let mut lead = self.lead.or_else(|| Lead::new(self.weight, draws.next_1d()))?;
-        let t = matter.medium.fly(&way, &mut lead, &mut self.weight, draws);
+        let t = medium.fly(way, &mut lead, &mut self.weight, draws);
         self.lead = Some(lead);
-        t.map(|t| way.at(t))
+        t
     }
 
     /// What radiance from here is multiplied by.
