@@ -19,6 +19,13 @@ const ENOUGH: f32 = 0.05;
 /// The irradiance by its own emitters that leaves a model's picture as it is.
 const MIDDLING: f32 = 0.3;
 
+/// Degrees across a light that gives shadows a soft edge.
+const EDGED: f32 = 3.0;
+
+/// Degrees across a light like the soft boxes of a studio: mirrors and glass show it as such, and what they throw on matte
+/// surfaces is found by chance without bright specks.
+const SOFT: f32 = 24.0;
+
 /// Stops from the model's own light to a middling one; 0 where it does not light itself.
 pub(super) fn exposure(scene: &Scene, bounds: Aabb) -> f32 {
     let own = luminance(own_irradiance(scene, bounds));
@@ -39,8 +46,8 @@ pub(super) fn light(scene: &mut Scene, bounds: Aabb, view: &View, is_inside: boo
         let from = |x: f64, y: f64, z: f64| (view.axes() * DVec3::new(x, y, z)).as_vec3();
         scene.lights = vec![
             ambient(Rgb::splat(0.12)),
-            distant("key", 0.85, from(-0.8, 0.9, 0.6)),
-            distant("fill", 0.15, from(1.0, 0.2, 0.5)),
+            distant("key", 0.85, from(-0.8, 0.9, 0.6), EDGED),
+            distant("fill", 0.15, from(1.0, 0.2, 0.5), EDGED),
         ];
         scene.background = backdrop(1.0, view);
     }
@@ -52,7 +59,7 @@ pub(super) fn studio(scene: &mut Scene, view: &View) {
     surround(scene, 1.0);
     scene
         .lights
-        .extend([distant("key", 0.65, from(-0.7, 0.9, 0.8)), distant("fill", 0.12, from(1.0, 0.1, 0.6))]);
+        .extend([distant("key", 0.65, from(-0.7, 0.9, 0.8), SOFT), distant("fill", 0.12, from(1.0, 0.1, 0.6), SOFT)]);
 }
 
 /// Puts a glTF model into a studio whose light comes from above: that is what metal and glass show. The ambient light stands
@@ -67,8 +74,8 @@ pub(super) fn surround(scene: &mut Scene, strength: f32) {
 
 /// Stops for a model by lights of its own in any unit: those that keep the light on its middle between dim and bright.
 pub(super) fn exposure_by_lights(lights: &[Light], bounds: Aabb) -> f32 {
-    /// Irradiance that leaves the picture as it is: from and to.
-    const USUAL: [f32; 2] = [0.8, 4.0];
+    /// Irradiance that leaves the picture as it is: from and to, where white paper is nearly white.
+    const USUAL: [f32; 2] = [0.8, 3.0];
     let centre = bounds.centre();
     let near = |position: Vec3| position.distance(centre).max(bounds.radius());
     let at_centre = |light: &Light| {
@@ -111,9 +118,9 @@ fn ambient(intensity: Rgb) -> Light {
     Light { name: "ambient".to_owned(), intensity, samples: 1, kind: LightKind::Ambient }
 }
 
-/// Light from `from`, infinitely far, with a soft edge to its shadows.
-fn distant(name: &str, intensity: f32, from: Vec3) -> Light {
-    let kind = LightKind::Directional { direction: -from.normalize(), angle: 3_f32.to_radians() };
+/// Light from `from`, infinitely far, from a disk of so many degrees across.
+fn distant(name: &str, intensity: f32, from: Vec3, degrees: f32) -> Light {
+    let kind = LightKind::Directional { direction: -from.normalize(), angle: degrees.to_radians() };
     Light { name: name.to_owned(), intensity: Rgb::splat(intensity), samples: 1, kind }
 }
 

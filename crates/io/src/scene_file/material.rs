@@ -7,6 +7,7 @@
 //! opacity = 1                    # 0 lets rays straight through; with a texture, its alpha, else its luminance
 //! # cutoff = 0.5                 # the surface is whole from this coverage on, and not there below it
 //! # interior = "smoke"           # the [[medium]] that fills what the surface closes; with opacity = 0 there is no surface
+//! # backfaces = "hidden"         # faces are seen from the front alone; "shown" if left out
 //! # priority = 1                 # of clear bodies that overlap the one with the highest is there; see below
 //! bump = { texture = "noise", strength = 0.01 }              # metres of white; or
 //! # normal_map = { texture = "bricks_normal", strength = 1 } # tangent space, +y up
@@ -27,6 +28,10 @@
 //! Light enters an `interior` where it is refracted or passes by the opacity. Clear bodies that touch are best drawn so that they
 //! overlap, each with its own `priority`: the glass over the water in it, the ice over both. Indices of refraction are then those
 //! against vacuum, whatever lies around.
+//!
+//! Hidden back faces are what rasterisers call culling, and what glTF has where it does not say `doubleSided`: the camera looks past
+//! them, be it straight, by mirrors or through clear glass, and so do all layers. Light does not: they throw shadows, shine and send
+//! light on like any other, as they do in shadow maps. What is clear has an inside, and needs its backs.
 //!
 //! In place of `[material.phong]` a material may have `[material.standard]`, a [physically based surface](super::standard).
 
@@ -62,10 +67,23 @@ pub struct MaterialTable {
     pub interior: Option<Placed<String>>,
     /// Of clear bodies that overlap the one with the highest is there; if left out, the one entered last.
     pub priority: Option<Whole<0, 255>>,
+    /// Whether faces are seen from behind; `"shown"` if left out.
+    pub backfaces: Option<Placed<Backfaces>>,
     /// Phong's model with a mirror and a transparent part.
     pub phong: Option<Placed<PhongTable>>,
     /// A physically based surface.
     pub standard: Option<Placed<StandardTable>>,
+}
+
+/// Whether faces are seen from behind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Backfaces {
+    /// They are.
+    #[default]
+    Shown,
+    /// The camera looks past them; they throw shadows all the same.
+    Hidden,
 }
 
 /// A height map.
@@ -153,8 +171,21 @@ impl MaterialTable {
                 .transpose()?
                 .map(|i| MediumId(i as u32)),
             priority: self.priority.map(Whole::u32),
+            hides_back: self.hides_back(&surface)?,
             ..Material::of(self.name.to_string(), surface)
         })
+    }
+
+    fn hides_back(&self, surface: &Surface) -> Result<bool, Fault> {
+        let Some(backfaces) = self.backfaces.as_ref().filter(|choice| ***choice == Backfaces::Hidden) else {
+            return Ok(false);
+        };
+        if surface.encloses() || self.interior.is_some() {
+            return Err(Fault::new("what has an inside that light enters needs its back faces")
+                .with_help("remove `backfaces`, or what lets light in")
+                .or_at(backfaces.span()));
+        }
+        Ok(true)
     }
 
     fn relief(&self, textures: &mut impl FindTexture) -> Result<Option<Relief>, Fault> {

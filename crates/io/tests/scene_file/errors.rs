@@ -440,3 +440,15 @@ fn physical_surfaces_say_what_they_do_not_take() {
         "remove `channel`",
     );
 }
+
+#[test]
+fn what_has_an_inside_keeps_its_back_faces() {
+    let help = "remove `backfaces`, or what lets light in";
+    let message = "what has an inside that light enters needs its back faces";
+    for clear in ["phong.transparency = 1", "standard.transmission = 1"] {
+        let text = format!("[[material]]\nname = \"m\"\nbackfaces = «\"hidden\"»\n{clear}\n");
+        refused(&with_camera(&text), message, help);
+    }
+    let thin = "[[material]]\nname = \"m\"\nbackfaces = \"hidden\"\nstandard = { transmission = 1, thin_walled = true }\n";
+    assert!(crate::support::shot(&with_camera(thin)).is_ok());
+}

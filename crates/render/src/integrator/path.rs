@@ -19,7 +19,7 @@ use crate::light::{self, Lookout};
 use crate::path_point::{Covering, Onward, PathPoint};
 use crate::photons::{Bounces, PhotonMap, PhotonSettings, Photons};
 use crate::sampler::Sampler;
-use crate::world::{Eye, Owner, PassingRay, SurfaceHit, World};
+use crate::world::{Eye, Owner, PassingRay, Sight, SurfaceHit, World};
 use heliostat_scene::settings::DepthLimits;
 use heliostat_scene::{RenderSettings, Rgb};
 use std::ops::{ControlFlow, Range};
@@ -64,8 +64,8 @@ struct Way {
     /// How it comes from the last matte layer, for photons.
     since_matte: Since,
     depth: Depth,
-    /// Whether it comes straight from the camera, cut-outs aside: invisible objects are not seen.
-    from_camera: bool,
+    /// How it comes from the camera.
+    sight: Sight,
     /// Whether it has only passed through things: then it sees no background that is to stay transparent.
     passed_only: bool,
     /// Whether it looks for lights alone, and ends with the next surface.
@@ -165,7 +165,7 @@ impl Paths<'_> {
             after: None,
             since_matte: Since::Never,
             depth: Depth::default(),
-            from_camera: true,
+            sight: Sight::Straight,
             passed_only: true,
             is_last: false,
         };
@@ -309,7 +309,7 @@ impl Path {
 impl Way {
     /// Who looks along it.
     fn eye(&self) -> Eye {
-        Eye::of_path(self.from_camera, self.scattered.is_some())
+        Eye::of_path(self.sight, self.scattered.is_some())
     }
 
     /// Weakens it by the glass that it came through: the one that it is in, or one that it leaves and was not known to be
@@ -337,7 +337,7 @@ impl Way {
         self.around.change(&onward.change);
         self.weight *= sample.weight;
         self.after = Some(sample.event);
-        self.from_camera = false;
+        self.sight = self.sight.after(sample.is_delta());
         self.passed_only &= sample.event == Event::Transmission;
         if !onward.is_straight {
             self.since_matte = match (sample.is_delta(), self.since_matte) {

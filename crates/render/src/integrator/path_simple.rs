@@ -21,7 +21,7 @@ use crate::interiors::Interiors;
 use crate::light::{self, Lookout};
 use crate::path_point::{Covering, PathPoint};
 use crate::sampler::Sampler;
-use crate::world::{Eye, Owner, PassingRay, SurfaceHit, World};
+use crate::world::{Eye, Owner, PassingRay, Sight, SurfaceHit, World};
 use heliostat_scene::{RenderSettings, Rgb};
 
 /// From so many scatterings on paths end by chance.
@@ -44,8 +44,8 @@ struct Leg {
     depth: u32,
     /// From where lights were asked; `None` where nothing but mirrors and glass lies between here and the camera.
     asked: Option<Lookout>,
-    /// Whether it comes straight from the camera, and whether it has only passed through things.
-    from_camera: bool,
+    sight: Sight,
+    /// Whether it has only passed through things.
     passed_only: bool,
     after: Option<Event>,
     sampler: Sampler,
@@ -85,7 +85,7 @@ impl Integrator for PathSimple {
             around: world.around(ray.ray.origin, ray.time),
             depth: 0,
             asked: None,
-            from_camera: true,
+            sight: Sight::Straight,
             passed_only: true,
             after: None,
             sampler: sampler.fork(0),
@@ -159,7 +159,7 @@ impl Walk<'_, '_> {
             around,
             depth: leg.depth + 1,
             asked: if onward.is_straight { leg.asked } else { asked },
-            from_camera: false,
+            sight: leg.sight.after(onward.sample.is_delta()),
             passed_only: leg.passed_only && onward.sample.event == Event::Transmission,
             after: Some(onward.sample.event),
             sampler: leg.sampler.fork(1),
@@ -192,7 +192,7 @@ impl Leg {
 
     /// Who looks along it.
     fn eye(&self) -> Eye {
-        Eye::of_path(self.from_camera, self.asked.is_some())
+        Eye::of_path(self.sight, self.asked.is_some())
     }
 
     /// Whether the light of that surface was asked for where the ray comes from.

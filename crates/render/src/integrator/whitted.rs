@@ -107,7 +107,7 @@ impl Whitted {
         counters: &mut RayCounters,
     ) {
         // Find what the ray meets first, and colour what comes through glass.
-        let eye = if branch.from_camera { Eye::Camera } else { Eye::Any };
+        let eye = if branch.from_camera { Eye::Camera } else { Eye::Mirrored };
         let seen = world.seen_inside(&branch.passing, branch.inside.as_ref(), time, eye);
         let Some(surface) = &seen else {
             self.leave(world, branch, found);

@@ -13,6 +13,7 @@ mod error;
 mod eye;
 mod filter;
 mod group;
+mod hidden_backs;
 mod hit;
 mod hull;
 mod kinds;
@@ -30,7 +31,7 @@ mod volumes;
 use crossing::coincide;
 pub(crate) use crossing::{Inside, PassingRay};
 pub use error::WorldError;
-pub(crate) use eye::Eye;
+pub(crate) use eye::{Eye, Sight};
 pub(crate) use group::{Chain, Lamp, PreparedGroup};
 pub use hit::{Owner, SurfaceHit};
 pub(crate) use hull::Hull;
@@ -91,6 +92,8 @@ pub struct World<'s> {
     clear: Clear,
     /// Whether every object is there for camera and scattered rays.
     all_seen: bool,
+    /// Whether any material hides its back.
+    hides_backs: bool,
     /// Whether light is followed below surfaces.
     walks: bool,
     volumes: Volumes<'s>,
@@ -146,6 +149,7 @@ impl<'s> World<'s> {
             lights: LightTable::new(scene, lamps(scene, &groups), used, settings.light_choice),
             has_filters: shadows.iter().any(|shadow| shadow.filters),
             all_seen: scene.objects.iter().all(|object| object.visible && object.casts_shadow),
+            hides_backs: scene.materials.iter().any(|material| material.hides_back),
             groups: in_order(scene, groups),
             level,
             scene,
@@ -195,10 +199,21 @@ impl<'s> World<'s> {
 
     /// [`World::camera_hit`] that adds the work on both levels to `cost`.
     pub fn camera_hit_counted(&self, ray: &Ray, time: f32, cost: &mut TraversalCost) -> Option<SurfaceHit> {
-        let below = Cell::new(TraversalCost::default());
         let passing = PassingRay::free(*ray);
-        let found = self.level.closest_counted(ray, cost, |i, ray, met| {
-            let look = Look { passing: &passing, solid: i, time, eye: Eye::Camera, cost: Some(&below) };
+        let found = self.nearest_counted(&passing, time, cost);
+        self.past_hidden_backs(found, &passing, Eye::Camera, |rest| self.nearest_counted(rest, time, cost))
+    }
+
+    /// The nearest thing on the way of a camera ray, hidden or not; adds the work on both levels to `cost`.
+    fn nearest_counted(
+        &self,
+        passing: &PassingRay,
+        time: f32,
+        cost: &mut TraversalCost,
+    ) -> Option<SurfaceHit> {
+        let below = Cell::new(TraversalCost::default());
+        let found = self.level.closest_counted(&passing.ray, cost, |i, ray, met| {
+            let look = Look { passing, solid: i, time, eye: Eye::Camera, cost: Some(&below) };
             self.is_seen(i, Eye::Camera).then(|| self.meet(&look, ray, met))?
         });
         let below = below.get();
@@ -206,7 +221,8 @@ impl<'s> World<'s> {
         cost.leaves += below.leaves;
         cost.tests += below.tests;
         let found = found?;
-        self.surface(found.primitive, (ray, &RayCone::POINT), time, &found.data, Parameters::Used)
+        let ray = (&passing.ray, &RayCone::POINT);
+        self.surface(found.primitive, ray, time, &found.data, Parameters::Used)
     }
 
     /// The nearest thing on the way of a ray that the eye sees.
@@ -216,6 +232,19 @@ impl<'s> World<'s> {
 
     #[inline]
     fn nearest(
+        &self,
+        passing: &PassingRay,
+        time: f32,
+        eye: Eye,
+        parameters: impl Fn(u32) -> Parameters,
+    ) -> Option<SurfaceHit> {
+        let found = self.nearest_side(passing, time, eye, &parameters);
+        self.past_hidden_backs(found, passing, eye, |rest| self.nearest_side(rest, time, eye, &parameters))
+    }
+
+    /// [`World::nearest`], from whichever side.
+    #[inline]
+    fn nearest_side(
         &self,
         passing: &PassingRay,
         time: f32,

@@ -95,6 +95,7 @@ fn object(stage: &mut Stage, thing: &Thing, groups: usize) -> Object {
     if thing.kind.is_multiple_of(7) {
         stage.last_material().opacity = heliostat_scene::material::FloatInput::constant(0.5);
     }
+    stage.last_material().hides_back = thing.kind.is_multiple_of(3);
     if matches!(object.geometry, Geometry::Group(_)) {
         object.materials.clear();
     }

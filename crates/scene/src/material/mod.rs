@@ -80,6 +80,12 @@ impl Surface {
         }
     }
 
+    /// Whether light gets through it at all, refracted or scattered.
+    pub fn lets_light_through(&self) -> bool {
+        let scatters = matches!(self, Self::Standard(standard) if standard.diffuse_transmission.factor > 0.0);
+        scatters || self.refracts()
+    }
+
     /// Absorption inside per metre and channel.
     pub fn absorption(&self) -> Rgb {
         match self {
@@ -158,6 +164,9 @@ pub struct Material {
     /// # Source
     /// Schmidt, Budge, "Simple Nested Dielectrics in Ray Traced Images", Journal of Graphics Tools, 2002.
     pub priority: Option<u32>,
+    /// Whether its faces are seen from the front alone, where the corners of a triangle run counterclockwise: the camera looks
+    /// past their backs, also by mirrors and clear glass. Light does not: they throw shadows and send it on like any other.
+    pub hides_back: bool,
 }
 
 impl Material {
@@ -172,6 +181,7 @@ impl Material {
             relief: None,
             interior: None,
             priority: None,
+            hides_back: false,
         }
     }
 

@@ -1,8 +1,9 @@
 //! Materials as [`Standard`] surfaces.
 //!
 //! Metallic-roughness and every ratified extension have their place in [`Standard`]; occlusion is left out, because rays find
-//! it. Surfaces are seen from both sides whatever `doubleSided` says. What needs a choice:
+//! it. What needs a choice:
 //!
+//! - Where `doubleSided` is not said, the camera looks past back faces. Light does not, and what lets light through shows both sides.
 //! - An index of refraction of 0, the file's word for "reflects all", becomes [`MIRROR_IOR`].
 //! - Glass without thickness is a thin sheet; with it, it is solid, and absorbs as `attenuationColor` says of the way of
 //!   `attenuationDistance`. The thickness itself is for renderers that do not trace rays.
@@ -93,7 +94,8 @@ impl Reader<'_, '_> {
             }
         };
         let (opacity, cutoff) = self.opacity(factor[3], texture.as_ref())?;
-        Ok(Material { opacity, cutoff, relief, ..Material::of(name, surface) })
+        let hides_back = !self.json.double_sided && !surface.lets_light_through();
+        Ok(Material { opacity, cutoff, relief, hides_back, ..Material::of(name, surface) })
     }
 
     fn standard(

@@ -105,6 +105,7 @@ pub(super) const FLIPS: &[Flip] = &[
     ),
     ("MaterialTable", "interior", "name = 'm'", "name = 'm'\ninterior = 'fog'"),
     ("MaterialTable", "priority", "name = 'm'", "name = 'm'\npriority = 3"),
+    ("MaterialTable", "backfaces", "name = 'm'", "name = 'm'\nbackfaces = 'hidden'"),
     ("StandardTable", "subsurface", "subsurface = 0.1", "subsurface = { texture = 't', factor = 0.1 }"),
     (
         "StandardTable",

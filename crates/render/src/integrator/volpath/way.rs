@@ -10,7 +10,7 @@ use crate::medium::lead::Lead;
 use crate::medium::{PreparedMedium, flight};
 use crate::path_point::{Covering, Onward, PathPoint};
 use crate::sampler::Sampler;
-use crate::world::{Eye, Matter, PassingRay, SurfaceHit};
+use crate::world::{Eye, Matter, PassingRay, Sight, SurfaceHit};
 use heliostat_scene::Rgb;
 use heliostat_scene::settings::DepthLimits;
 use std::ops::ControlFlow;
@@ -31,8 +31,8 @@ pub(super) struct Way {
     /// What happened last.
     pub(super) after: Option<Event>,
     pub(super) depth: Depth,
-    /// Whether it comes straight from the camera, cut-outs aside: invisible objects are not seen.
-    pub(super) from_camera: bool,
+    /// How it comes from the camera.
+    sight: Sight,
     /// Whether it has only passed through things: then it sees no background that is to stay transparent.
     pub(super) passed_only: bool,
     /// Whether it looks for lights alone, and ends with the next surface.
@@ -50,7 +50,7 @@ impl Way {
             scattered: None,
             after: None,
             depth: Depth::default(),
-            from_camera: true,
+            sight: Sight::Straight,
             passed_only: true,
             is_last: false,
         }
@@ -58,7 +58,7 @@ impl Way {
 
     /// Who looks along it.
     pub(super) fn eye(&self) -> Eye {
-        Eye::of_path(self.from_camera, self.scattered.is_some())
+        Eye::of_path(self.sight, self.scattered.is_some())
     }
 
     /// Its way through a medium up to `end` lengths of the ray; `None` where the medium has ended before.
@@ -129,7 +129,7 @@ impl Way {
         self.around.change(&onward.change);
         self.weight *= sample.weight;
         self.after = Some(sample.event);
-        self.from_camera = false;
+        self.sight = self.sight.after(sample.is_delta());
         self.passed_only &= sample.event == Event::Transmission;
         self.is_last |= self.depth.grow(sample.event, limits);
     }
@@ -146,7 +146,7 @@ impl Way {
         self.scattered = Some((from, pdf));
         // Surfaces that light nothing do not light media either.
         self.after = Some(Event::Diffuse);
-        self.from_camera = false;
+        self.sight = Sight::Lost;
         self.passed_only = false;
         self.is_last |= self.depth.grow_volume(limits);
     }
