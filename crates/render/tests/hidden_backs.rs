@@ -2,7 +2,10 @@
 
 mod common;
 
-use common::{Looker, Stage, at, ball_mesh, black, box_mesh, glass, grey, mirror, plane, rectangle, sphere, tilted, white};
+use common::{
+    Looker, Stage, at, ball_mesh, black, box_mesh, glass, grey, mirror, plane, rectangle, sphere, tilted,
+    white,
+};
 use glam::Vec3;
 use heliostat_geometry::{Ray, Transform};
 use heliostat_index::TraversalCost;
@@ -36,9 +39,11 @@ fn hide(stage: &mut Stage) {
 fn sheet() -> Stage {
     let mut stage = Stage::new().with(rectangle(2.0, 2.0), shining(1.0), Transform::IDENTITY);
     hide(&mut stage);
-    stage
-        .with(rectangle(90.0, 90.0), shining(2.0), at(0.0, 20.0, 0.0))
-        .with(rectangle(90.0, 90.0), shining(3.0), at(0.0, -20.0, 0.0))
+    stage.with(rectangle(90.0, 90.0), shining(2.0), at(0.0, 20.0, 0.0)).with(
+        rectangle(90.0, 90.0),
+        shining(3.0),
+        at(0.0, -20.0, 0.0),
+    )
 }
 
 #[test]
@@ -74,7 +79,11 @@ fn a_mirror_and_clear_glass_show_what_the_camera_would_see() {
         for (y, expected) in [(-5.0, 2.0), (5.0, 1.0)] {
             let mut stage = Stage { settings: settings.clone(), ..sheet() };
             stage.add(rectangle(2.0, 2.0), mirror(), at(0.0, y, 0.0));
-            assert_eq!(stage.grey(Vec3::new(0.1, y / 2.0, 0.2), Vec3::new(0.1, y, 0.2)), expected, "{integrator:?} {y}");
+            assert_eq!(
+                stage.grey(Vec3::new(0.1, y / 2.0, 0.2), Vec3::new(0.1, y, 0.2)),
+                expected,
+                "{integrator:?} {y}"
+            );
         }
         let mut stage = Stage { settings, ..sheet() };
         stage.add(rectangle(2.0, 2.0), glass(1.0), at(0.0, -5.0, 0.0));

@@ -4,6 +4,7 @@
 //! Small files go to `assets/` and are committed; large ones go to `assets/large/`, which is not.
 
 mod bird;
+mod gem;
 mod lamps;
 mod noise;
 mod obj;
@@ -63,6 +64,7 @@ fn from_formulas() -> Outcome {
         ("meshes/sphere.obj", solids::icosphere(5)),
         ("meshes/facets.obj", solids::icosphere(2)),
         ("meshes/prism.obj", solids::prism()),
+        ("meshes/gem.obj", gem::brilliant()),
         ("meshes/bird.obj", bird::mesh(9_002)),
         ("large/bird.obj", bird::mesh(48_485)),
     ];

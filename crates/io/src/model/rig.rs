@@ -24,7 +24,7 @@ const EDGED: f32 = 3.0;
 
 /// Degrees across a light like the soft boxes of a studio: mirrors and glass show it as such, and what they throw on matte
 /// surfaces is found by chance without bright specks.
-const SOFT: f32 = 24.0;
+const SOFT: f32 = 36.0;
 
 /// Stops from the model's own light to a middling one; 0 where it does not light itself.
 pub(super) fn exposure(scene: &Scene, bounds: Aabb) -> f32 {
@@ -57,9 +57,10 @@ pub(super) fn light(scene: &mut Scene, bounds: Aabb, view: &View, is_inside: boo
 pub(super) fn studio(scene: &mut Scene, view: &View) {
     let from = |x: f64, y: f64, z: f64| (view.axes() * DVec3::new(x, y, z)).as_vec3();
     surround(scene, 1.0);
-    scene
-        .lights
-        .extend([distant("key", 0.65, from(-0.7, 0.9, 0.8), SOFT), distant("fill", 0.12, from(1.0, 0.1, 0.6), SOFT)]);
+    scene.lights.extend([
+        distant("key", 0.65, from(-0.7, 0.9, 0.8), SOFT),
+        distant("fill", 0.12, from(1.0, 0.1, 0.6), SOFT),
+    ]);
 }
 
 /// Puts a glTF model into a studio whose light comes from above: that is what metal and glass show. The ambient light stands

@@ -280,7 +280,9 @@ fn single_sided_materials_hide_their_backs_unless_light_comes_through() {
     let hides = |json: &str| material(json).hides_back;
     assert!(hides("{}") && hides(r#"{"alphaMode": "BLEND"}"#) && hides(r#"{"doubleSided": false}"#));
     assert!(!hides(r#"{"doubleSided": true}"#));
-    for (name, factor) in [("transmission", "transmissionFactor"), ("diffuse_transmission", "diffuseTransmissionFactor")] {
+    for (name, factor) in
+        [("transmission", "transmissionFactor"), ("diffuse_transmission", "diffuseTransmissionFactor")]
+    {
         let with = |v: f32| format!(r#"{{"extensions": {{"KHR_materials_{name}": {{"{factor}": {v}}}}}}}"#);
         assert!(hides(&with(0.0)) && !hides(&with(0.5)), "{name}");
     }
