@@ -270,10 +270,10 @@ impl<'a> PathPoint<'a> {
         sizes * (view.dot(ns) / dir.dot(ns)).abs() / (eta * eta)
     }
 
-    /// A way on, by random numbers for the layer and the direction; `None` where the light is lost.
+    /// A way on for a path that carries so much, by random numbers for the layer and the direction; `None` where the light is lost.
     #[inline]
-    pub(crate) fn sample(&self, passing: &PassingRay, layer: f32, u: Vec2) -> Option<Onward> {
-        let mut sample = self.view.sample(layer, u)?;
+    pub(crate) fn sample(&self, passing: &PassingRay, carried: Rgb, layer: f32, u: Vec2) -> Option<Onward> {
+        let mut sample = self.view.sample(carried, layer, u)?;
         let dir = self.frame.to_world(sample.wi);
         if sample.is_delta() {
             let onward = self.smooth_way(passing, sample, dir);

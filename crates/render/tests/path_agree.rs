@@ -10,7 +10,7 @@ use heliostat_geometry::shape::{Cone, Cylinder};
 use heliostat_geometry::{Shape, Transform, TriMesh};
 use heliostat_scene::image::{Encoding, Samples};
 use heliostat_scene::light::{Falloff, LightKind};
-use heliostat_scene::material::{FloatInput, FresnelMode, Phong};
+use heliostat_scene::material::{ColorInput, FloatInput, FresnelMode, Phong, Standard, Surface};
 use heliostat_scene::object::Geometry;
 use heliostat_scene::scene::Background;
 use heliostat_scene::settings::IntegratorKind;
@@ -229,4 +229,19 @@ fn a_mesh_with_a_dark_slot() {
     let mut stage = stage.with(mesh, shining(2.0), Transform::IDENTITY);
     stage.scene.objects.last_mut().unwrap().materials.insert(0, MaterialId(0));
     assert_agree(stage, Vec3::new(0.5, 0.6, 4.0), FLOOR, 32, "half of a mesh");
+}
+
+#[test]
+fn glass_that_parts_colours() {
+    let prism = Standard {
+        base_color: ColorInput::constant(Rgb::new(0.9, 0.8, 0.95)),
+        transmission: FloatInput::constant(1.0),
+        roughness: FloatInput::constant(0.0),
+        dispersion: 4.0,
+        ..Standard::default()
+    };
+    let mut stage = room();
+    stage.add(sphere(0.6), black(), at(0.2, 0.7, 0.8));
+    stage.last_material().surface = Surface::Standard(Box::new(prism));
+    assert_agree(stage, FROM, Vec3::new(0.45, 0.8, 0.8), 64, "glass that parts colours");
 }

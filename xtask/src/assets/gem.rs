@@ -33,7 +33,7 @@ pub(super) fn brilliant() -> Mesh {
         let fan = corners.windows(2).skip(1).map(|pair| [corners[0], pair[0], pair[1]]);
         mesh.triangles.extend(fan);
     };
-    face(&(0..8).map(table).collect::<Vec<_>>());
+    face(&(0..8).map(&table).collect::<Vec<_>>());
     for k in 0..8 {
         let (main, next) = (2 * k, 2 * k + 1);
         face(&[table(k), star(k + 7), upper(main), star(k)]);

@@ -177,12 +177,12 @@ impl View<'_> {
     }
 
     /// A direction by random numbers in `[0, 1)`: `layer` chooses among layers, `u` the direction. `None` where the light is
-    /// lost.
+    /// lost. What the channels of the path carry decides which colours glass parts.
     #[inline]
-    pub(crate) fn sample(&self, layer: f32, u: Vec2) -> Option<BsdfSample> {
+    pub(crate) fn sample(&self, carried: Rgb, layer: f32, u: Vec2) -> Option<BsdfSample> {
         match self {
             Self::Phong(phong, wo) => phong.sample(*wo, layer, u),
-            Self::Standard(view) => view.sample(u.extend(layer)),
+            Self::Standard(view) => view.sample_for(carried, u.extend(layer)),
         }
     }
 

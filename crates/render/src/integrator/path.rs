@@ -239,7 +239,7 @@ impl Paths<'_> {
             let light = way.weight * self.caustic(map, &point, surface, &way.depth);
             found.radiance += self.path.clamped(light, way.depth.total);
         }
-        let onward = point.sample(&way.passing, choices.y, draws.next_2d());
+        let onward = point.sample(&way.passing, way.weight, choices.y, draws.next_2d());
         let Some(onward) = onward else { return ControlFlow::Break(()) };
         onward.count(counters);
         way.go_on(&onward, &point, &self.path.limits);

@@ -144,7 +144,7 @@ impl Walk<'_, '_> {
     /// What a point sends on of the light from a direction that it draws.
     fn sent_on(&mut self, point: &PathPoint<'_>, mut leg: Leg) -> Rgb {
         let (layer, u) = (leg.sampler.next_1d(), leg.sampler.next_2d());
-        let Some(onward) = point.sample(&leg.passing, layer, u) else { return Rgb::ZERO };
+        let Some(onward) = point.sample(&leg.passing, Rgb::ONE, layer, u) else { return Rgb::ZERO };
         let weight = onward.sample.weight;
         let survives = if leg.depth < CERTAIN { 1.0 } else { weight.max_element().min(0.9) };
         if leg.depth == MOST || leg.sampler.next_1d() >= survives {

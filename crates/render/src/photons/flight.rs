@@ -89,7 +89,7 @@ impl<'w, 's> Flight<'w, 's> {
 
         // Go on by mirror and clear glass alone.
         let choice = draws.next_2d();
-        let onward = point.sample(&self.passing, choice.y, draws.next_2d());
+        let onward = point.sample(&self.passing, self.weight * self.flux, choice.y, draws.next_2d());
         let smooth = onward.filter(|way| way.sample.is_delta() && way.sample.event != Event::Subsurface);
         let Some(onward) = smooth else { return ControlFlow::Break(()) };
         self.weight *= point.adjoint(&onward, &around) * onward.sample.weight;

@@ -178,12 +178,27 @@ impl Clear {
         (0..count).map(|k| self.nth_ray(k))
     }
 
-    /// One of [`Self::rays`], by a number in `[0, 1)`.
-    pub(super) fn ray(&self, u: f32) -> (f32, Rgb) {
-        self.nth_ray(if self.is_dispersed { ((3.0 * u) as usize).min(2) } else { 0 })
+    /// One of [`Self::rays`], by a number in `[0, 1)` and in proportion to what each channel carries, and its colour over the
+    /// probability: a path that has taken the way of one colour before stays with it.
+    pub(super) fn ray(&self, u: f32, carried: Rgb) -> (f32, Rgb) {
+        if !self.is_dispersed {
+            return self.nth_ray(0);
+        }
+        let sum = carried.element_sum();
+        let shares = if sum > 0.0 { carried / sum } else { Rgb::splat(1.0 / 3.0) };
+        let (mut left, mut drawn) = (u, 0);
+        for k in (0..3).filter(|&k| shares[k] > 0.0) {
+            drawn = k;
+            if left < shares[k] {
+                break;
+            }
+            left -= shares[k];
+        }
+        let (eta, color) = self.nth_ray(drawn);
+        (eta, color / shares[drawn])
     }
 
-    /// Probability of each ray.
+    /// Probability of each ray where all channels carry the same.
     pub(super) fn ray_share(&self) -> f32 {
         if self.is_dispersed { 1.0 / 3.0 } else { 1.0 }
     }

@@ -39,6 +39,8 @@ pub(crate) struct View<'b> {
     profiles: Profiles,
     /// Share of the light along `wo` that the cover lets pass.
     passed: f32,
+    /// What the channels of the path carry.
+    carried: Rgb,
     /// Probabilities of [`WAYS`]; they add up to 1, or to 0 for a black surface.
     shares: [f32; WAYS.len()],
 }
@@ -55,7 +57,13 @@ impl<'b> View<'b> {
         let weights = [coat, fibres, facets, bright(up), bright(down), under];
         let sum: f32 = weights.iter().sum();
         let shares = if sum > 0.0 { weights.map(|weight| weight / sum) } else { [0.0; WAYS.len()] };
-        Self { bsdf, wo, profiles, passed, shares }
+        Self { bsdf, wo, profiles, passed, carried: Rgb::ONE, shares }
+    }
+
+    /// [`Self::sample`] for a path whose channels carry so much.
+    #[inline]
+    pub(crate) fn sample_for(&self, carried: Rgb, u: Vec3) -> Option<BsdfSample> {
+        if self.bsdf.base.clear.is_dispersed { Self { carried, ..*self }.sample(u) } else { self.sample(u) }
     }
 
     /// Whether light is scattered into more than a few directions.
@@ -219,8 +227,8 @@ impl<'b> View<'b> {
 
     /// Draws a direction: `u.z` says which way, the rest where; `None` where the numbers lead nowhere, for which light is 0.
     ///
-    /// With dispersion smooth glass picks one channel: the weight of the others is 0 and that of this one three times as
-    /// large, so that a weight with a single channel tells that the path has taken the way of one colour.
+    /// With dispersion smooth glass picks one channel, by what each carries: the weight of the others is 0, so that a weight with
+    /// a single channel tells that the path has taken the way of one colour.
     pub(crate) fn sample(&self, u: Vec3) -> Option<BsdfSample> {
         if self.wo.z <= 0.0 {
             return None;
@@ -291,13 +299,16 @@ impl<'b> View<'b> {
                 None => Facing::Smooth(self.delta(Way::Facets, -wo, weight, Event::Transmission)),
             });
         }
-        let (eta, color) = base.clear.ray(((rest - chance) / (1.0 - chance)).min(1.0 - f32::EPSILON));
+        // The density of rough glass is that of even odds.
+        let carried = if is_smooth { self.carried } else { Rgb::ONE };
+        let u = ((rest - chance) / (1.0 - chance)).min(1.0 - f32::EPSILON);
+        let (eta, color) = base.clear.ray(u, carried);
         let (h, cos) = if is_smooth { (Vec3::Z, wo.z.min(1.0)) } else { (h, cos) };
         let wi = bent(wo, h, cos, eta)?;
         if !is_smooth {
             return Some(Facing::Rough(wi, Event::Transmission));
         }
-        let weight = self.passed * color * passed / ((1.0 - chance) * base.clear.ray_share());
+        let weight = self.passed * color * passed / (1.0 - chance);
         Some(Facing::Smooth(self.delta(Way::Facets, wi, weight, Event::Transmission)))
     }
 

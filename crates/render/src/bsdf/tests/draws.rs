@@ -1,6 +1,7 @@
 //! Draws against their density: counts in bins, the sum of the density, and weights.
 
 use super::*;
+use crate::bsdf::BsdfSample;
 use crate::bsdf::quadrature::gauss_legendre;
 use crate::bsdf::standard::view::View;
 use rayon::prelude::*;
@@ -194,4 +195,27 @@ fn bsdf_weight_is_value_over_density() {
         }
     }
     assert!(worst < 1e-6, "{worst}");
+}
+
+/// Light that glass has parted already stays with its colour, and what all draws carry on is the same.
+#[test]
+fn colours_are_parted_by_what_is_carried() {
+    const COUNT: u32 = 1 << 14;
+    let glass = outside(&rough(|p| (p.transmission, p.dispersion) = (1.0, 2.0), 0.0));
+    let wo = viewer(0.6);
+    let view = glass.seen_from(wo);
+    let mean = |carried: Rgb| {
+        let carry = |sample: BsdfSample| carried * sample.weight;
+        let drawn = lattice(COUNT).map(|u| view.sample_for(carried, u).map_or(Rgb::ZERO, carry));
+        drawn.sum::<Rgb>() / COUNT as f32
+    };
+    let even = mean(Rgb::ONE);
+    for carried in [Rgb::X, Rgb::Y, Rgb::Z, Rgb::new(0.7, 0.0, 0.2), Rgb::new(3.0, 0.1, 0.5)] {
+        let error = (mean(carried) - carried * even).abs();
+        assert!(error.cmple(Rgb::splat(0.01 * carried.max_element())).all(), "{carried}: {error}");
+        let lost = lattice(COUNT).filter(|&u| {
+            view.sample_for(carried, u).is_none_or(|sample| (carried * sample.weight).max_element() == 0.0)
+        });
+        assert_eq!(lost.count(), 0, "{carried}");
+    }
 }

@@ -165,7 +165,8 @@ impl VolPath {
         let choice = step.draws.next_2d();
         self.add_asked(step, way, point, choice.x, found);
         let u = step.draws.next_2d();
-        let Some(onward) = point.sample(&way.passing, choice.y, u) else { return ControlFlow::Break(()) };
+        let onward = point.sample(&way.passing, way.settled(), choice.y, u);
+        let Some(onward) = onward else { return ControlFlow::Break(()) };
         if onward.sample.event == Event::Subsurface {
             let carried = way.settled() * onward.sample.weight;
             let (Some(thing), Some(medium)) = (surface.thing(), covering.below(surface)) else {
@@ -199,7 +200,8 @@ impl VolPath {
         self.add_asked(step, way, &point, choice.x, found);
         let u = step.draws.next_2d();
         let inner = PassingRay::free(way.passing.ray);
-        let Some(onward) = point.sample(&inner, choice.y, u) else { return ControlFlow::Break(()) };
+        let onward = point.sample(&inner, way.settled(), choice.y, u);
+        let Some(onward) = onward else { return ControlFlow::Break(()) };
         onward.count(step.counters);
         way.go_on(&onward, &point, &self.limits);
         way.roulette(&mut step.draws)
