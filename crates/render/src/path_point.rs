@@ -109,11 +109,12 @@ impl<'a> Covering<'a> {
         }
     }
 
-    /// Radiance that the surface gives off and that lights the scene.
+    /// Radiance that the surface gives off and that lights the scene, seen by a ray in direction `dir`.
     #[inline]
-    pub(crate) fn emission(&self) -> Rgb {
+    pub(crate) fn emission(&self, surface: &SurfaceHit, dir: Vec3) -> Rgb {
         let emission = self.material.surface.emission();
-        if emission.is_zero() { Rgb::ZERO } else { self.eval.color(&emission) }
+        let is_dark = || !self.material.shines_back() && surface.hit.at.ng.dot(dir) > 0.0;
+        if emission.is_zero() || is_dark() { Rgb::ZERO } else { self.eval.color(&emission) }
     }
 
     /// Radiance that is seen and lights nothing.

@@ -64,8 +64,10 @@ impl<'a> ShadingPoint<'a> {
         let (ng, smooth) = (side * surface.hit.at.ng, side * surface.hit.ns);
         let bent = side * eval.bent_normal(material.relief, &surface.hit, surface.hit.ns);
         let mut phong = eval.phong(&material.surface.phong(), surface.color);
-        if let (Surface::Unlit(_), Some(color)) = (&material.surface, surface.color) {
-            phong.emission *= color;
+        match (&material.surface, surface.color) {
+            (Surface::Unlit(_), color) => phong.emission *= color.unwrap_or(Rgb::ONE),
+            _ if !enters && !material.shines_back() => phong.emission = Rgb::ZERO,
+            _ => {}
         }
         Self {
             surface,

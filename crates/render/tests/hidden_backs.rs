@@ -3,13 +3,13 @@
 mod common;
 
 use common::{
-    Looker, Stage, at, ball_mesh, black, box_mesh, glass, grey, mirror, plane, rectangle, sphere, tilted,
-    white,
+    Estimate, Looker, Stage, at, ball_mesh, black, box_mesh, glass, grey, mirror, plane, rectangle, sphere,
+    tilted, white,
 };
 use glam::Vec3;
 use heliostat_geometry::{Ray, Transform};
 use heliostat_index::TraversalCost;
-use heliostat_scene::material::Phong;
+use heliostat_scene::material::{Back, Phong};
 use heliostat_scene::settings::IntegratorKind;
 use heliostat_scene::{RenderSettings, Scene};
 
@@ -32,7 +32,7 @@ fn shining(radiance: f32) -> Phong {
 }
 
 fn hide(stage: &mut Stage) {
-    stage.last_material().hides_back = true;
+    stage.last_material().back = Back::Hidden;
 }
 
 /// A sheet in the plane y = 0 that faces up, and shining sheets far above and below it.
@@ -128,7 +128,7 @@ fn light_does_not_look_past_them() {
             .with(rectangle(4.0, 4.0), white(), tilted(20.0, 0.0, 1.0, 0.0))
             .with_point_light(30.0, Vec3::new(1.0, 6.0, 0.5))
             .with_sky(0.5);
-        stage.last_material().hides_back = hides;
+        stage.last_material().back = if hides { Back::Hidden } else { Back::Dark };
         stage.settings.integrator = integrator;
         let looker = Looker::new(&stage);
         let (from, to) = (Vec3::new(9.0, 3.0, 0.0), Vec3::new(0.4, 0.0, 0.1));
@@ -146,7 +146,36 @@ fn light_does_not_look_past_them() {
 fn scenes_without_hidden_backs_are_as_before() {
     let stage = sheet();
     let mut shown: Scene = stage.scene.clone();
-    shown.materials.iter_mut().for_each(|material| material.hides_back = false);
+    shown.materials.iter_mut().for_each(|material| material.back = Back::Alike);
     let shown = Stage { scene: shown, settings: stage.settings.clone() };
     assert_eq!((shown.grey(UP, MIDDLE), shown.grey(DOWN, MIDDLE)), (1.0, 1.0));
+}
+
+#[test]
+fn dark_backs_light_nothing() {
+    // A sheet that faces down, over a white plane or under one.
+    for integrator in [IntegratorKind::Path, IntegratorKind::PathSimple, IntegratorKind::VolPath] {
+        let settings = RenderSettings { integrator, ..RenderSettings::default() };
+        let lit = |y: f32, back: Back| {
+            let mut stage = Stage { settings: settings.clone(), ..Stage::new() }
+                .with(plane(), white(), tilted(if y > 0.0 { 180.0 } else { 0.0 }, 0.0, y.into(), 0.0))
+                .with(rectangle(1.0, 1.0), shining(5.0), tilted(180.0, 0.0, 0.0, 0.0));
+            stage.last_material().back = back;
+            Estimate::new(&stage, Vec3::new(0.8, 0.9 * y, 0.1), Vec3::new(0.3, y, 0.1), 64)
+        };
+        assert!(lit(1.0, Back::Alike).mean.x > 0.5, "{integrator:?}");
+        assert_eq!(lit(1.0, Back::Dark).mean.x, 0.0, "{integrator:?}");
+        lit(-1.0, Back::Dark).assert_same(&lit(-1.0, Back::Alike), &format!("{integrator:?}"));
+        // Seen from behind, it is black.
+        let seen = |back: Back| {
+            let mut stage = Stage { settings: settings.clone(), ..Stage::new() }.with(
+                rectangle(1.0, 1.0),
+                shining(5.0),
+                Transform::IDENTITY,
+            );
+            stage.last_material().back = back;
+            [UP, DOWN].map(|from| stage.grey(from, MIDDLE))
+        };
+        assert_eq!((seen(Back::Dark), seen(Back::Alike)), ([5.0, 0.0], [5.0, 5.0]), "{integrator:?}");
+    }
 }

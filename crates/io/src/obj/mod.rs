@@ -28,6 +28,7 @@ mod build;
 mod channel;
 mod face;
 mod files;
+mod lamps;
 mod libraries;
 mod map;
 mod material;
@@ -146,9 +147,10 @@ pub fn parse_obj(
     if !options.materials {
         raw.libraries.clear();
     }
-    let materials = libraries::load(&source, &mut raw, files)?;
+    let mut materials = libraries::load(&source, &mut raw, files)?;
     normals::fill_in(&mut raw, options.smooth_angle);
     let objects = build::objects(&source, &mut raw, options.split, &|name| materials.of(name))?;
+    lamps::darken_backs(&objects, &mut materials.materials);
     Ok(ObjModel {
         objects,
         materials: materials.materials,

@@ -7,7 +7,7 @@
 //! opacity = 1                    # 0 lets rays straight through; with a texture, its alpha, else its luminance
 //! # cutoff = 0.5                 # the surface is whole from this coverage on, and not there below it
 //! # interior = "smoke"           # the [[medium]] that fills what the surface closes; with opacity = 0 there is no surface
-//! # backfaces = "hidden"         # faces are seen from the front alone; "shown" if left out
+//! # backfaces = "hidden"         # faces are seen from the front alone; "dark": they shine from it; "shown" if left out
 //! # priority = 1                 # of clear bodies that overlap the one with the highest is there; see below
 //! bump = { texture = "noise", strength = 0.01 }              # metres of white; or
 //! # normal_map = { texture = "bricks_normal", strength = 1 } # tangent space, +y up
@@ -30,7 +30,7 @@
 //! against vacuum, whatever lies around.
 //!
 //! Hidden back faces are what rasterisers call culling, and what glTF has where it does not say `doubleSided`: the camera looks past
-//! them, be it straight, by mirrors or through clear glass, and so do all layers. Light does not: they throw shadows, shine and send
+//! them, be it straight, by mirrors or through clear glass, and so do all layers. Light does not: they throw shadows and send
 //! light on like any other, as they do in shadow maps. What is clear has an inside, and needs its backs.
 //!
 //! In place of `[material.phong]` a material may have `[material.standard]`, a [physically based surface](super::standard).
@@ -43,7 +43,7 @@ use super::texturable::{Texturable, Textured};
 use super::value::Color;
 use crate::document::{Fault, Placed};
 use heliostat_scene::material::{
-    Channel, ColorInput, FloatInput, FresnelMode, Material, Phong, Relief, Surface,
+    Back, Channel, ColorInput, FloatInput, FresnelMode, Material, Phong, Relief, Surface,
 };
 use heliostat_scene::{MediumId, Rgb, TextureId};
 use schemars::JsonSchema;
@@ -82,7 +82,9 @@ pub enum Backfaces {
     /// They are.
     #[default]
     Shown,
-    /// The camera looks past them; they throw shadows all the same.
+    /// They are, but give off no light of their own: a lamp shines from its front.
+    Dark,
+    /// The camera looks past them; they throw shadows all the same, and give off no light of their own.
     Hidden,
 }
 
@@ -171,21 +173,26 @@ impl MaterialTable {
                 .transpose()?
                 .map(|i| MediumId(i as u32)),
             priority: self.priority.map(Whole::u32),
-            hides_back: self.hides_back(&surface)?,
+            back: self.back(&surface)?,
             ..Material::of(self.name.to_string(), surface)
         })
     }
 
-    fn hides_back(&self, surface: &Surface) -> Result<bool, Fault> {
-        let Some(backfaces) = self.backfaces.as_ref().filter(|choice| ***choice == Backfaces::Hidden) else {
-            return Ok(false);
+    fn back(&self, surface: &Surface) -> Result<Back, Fault> {
+        let backfaces = match &self.backfaces {
+            None => return Ok(Back::Alike),
+            Some(backfaces) => match **backfaces {
+                Backfaces::Shown => return Ok(Back::Alike),
+                Backfaces::Dark => return Ok(Back::Dark),
+                Backfaces::Hidden => backfaces,
+            },
         };
         if surface.encloses() || self.interior.is_some() {
             return Err(Fault::new("what has an inside that light enters needs its back faces")
                 .with_help("remove `backfaces`, or what lets light in")
                 .or_at(backfaces.span()));
         }
-        Ok(true)
+        Ok(Back::Hidden)
     }
 
     fn relief(&self, textures: &mut impl FindTexture) -> Result<Option<Relief>, Fault> {

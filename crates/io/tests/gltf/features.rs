@@ -277,7 +277,7 @@ fn variants_change_materials() {
 
 #[test]
 fn single_sided_materials_hide_their_backs_unless_light_comes_through() {
-    let hides = |json: &str| material(json).hides_back;
+    let hides = |json: &str| material(json).hides_back();
     assert!(hides("{}") && hides(r#"{"alphaMode": "BLEND"}"#) && hides(r#"{"doubleSided": false}"#));
     assert!(!hides(r#"{"doubleSided": true}"#));
     for (name, factor) in
@@ -288,5 +288,5 @@ fn single_sided_materials_hide_their_backs_unless_light_comes_through() {
     }
     assert!(hides(r#"{"extensions": {"KHR_materials_unlit": {}}}"#));
     // What has no material is single-sided too.
-    assert!(triangle(r#", "nodes": [{"mesh": 0}]"#).materials[0].hides_back);
+    assert!(triangle(r#", "nodes": [{"mesh": 0}]"#).materials[0].hides_back());
 }

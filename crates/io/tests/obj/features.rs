@@ -3,7 +3,7 @@
 use crate::memory::MemoryFiles;
 use glam::{Vec2, Vec3};
 use heliostat_io::obj::{ObjModel, ObjOptions, Split, parse_obj};
-use heliostat_scene::material::{FresnelMode, Phong, Relief, Surface};
+use heliostat_scene::material::{Back, FresnelMode, Phong, Relief, Surface};
 use heliostat_scene::texture::{Pattern, Wrap};
 use heliostat_scene::{Material, Rgb};
 use std::path::Path;
@@ -437,4 +437,33 @@ fn byte_order_marks_latin_1_and_continued_lines_are_read() {
     assert_eq!(model.materials[0].name, "Terraind\u{e9}k");
     assert_eq!(corners(&model, 0, 0), [Vec3::ZERO, Vec3::X, Vec3::Y]);
     assert_eq!(model.warnings, []);
+}
+
+#[test]
+fn lamps_shine_from_their_fronts_unless_they_are_inside_out() {
+    const CUBE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
+    const FACES: [[u32; 4]; 6] =
+        [[4, 3, 2, 1], [5, 6, 7, 8], [1, 2, 6, 5], [2, 3, 7, 6], [3, 4, 8, 7], [4, 1, 5, 8]];
+    let back = |ke: &str, faces: &[[u32; 4]], is_turned: bool| {
+        let mut files = MemoryFiles::default();
+        files.library("a.mtl", format!("newmtl floor\nnewmtl lamp\nKe {ke}"));
+        let face = |[a, b, c, d]: &[u32; 4]| match is_turned {
+            false => format!("f {a} {b} {c} {d}\n"),
+            true => format!("f {d} {c} {b} {a}\n"),
+        };
+        let lamp: String = faces.iter().map(face).collect();
+        let text = format!("mtllib a.mtl\n{CUBE}usemtl lamp\n{lamp}");
+        let floor = format!("{text}o other\nusemtl floor\nf 1 2 3 4\nusemtl lamp\nf 1 2 3\n");
+        let backs = [text, floor].map(|text| {
+            let model = read_with(text.as_bytes(), &ObjOptions::default(), &mut files);
+            model.materials.iter().find(|material| material.name == "lamp").expect("a lamp").back
+        });
+        assert_eq!(backs[0], backs[1]);
+        backs[0]
+    };
+    assert_eq!(back("1 1 1", &FACES[..1], false), Back::Dark);
+    assert_eq!(back("1 1 1", &FACES[..1], true), Back::Dark);
+    assert_eq!(back("1 1 1", &FACES, false), Back::Dark);
+    assert_eq!(back("1 1 1", &FACES, true), Back::Alike);
+    assert_eq!(back("0 0 0", &FACES, false), Back::Alike);
 }

@@ -215,7 +215,7 @@ impl Paths<'_> {
 
         // Add what it gives off by itself.
         way.absorb(covering.left_absorption(surface, dir), surface);
-        self.add_light(world, way, surface, covering.emission(), found);
+        self.add_light(world, way, surface, covering.emission(surface, dir), found);
         if way.after != Some(Event::Diffuse) {
             found.radiance += way.weight * covering.glow();
         }

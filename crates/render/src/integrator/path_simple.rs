@@ -129,7 +129,7 @@ impl Walk<'_, '_> {
 
         let mut sum = Rgb::ZERO;
         if !leg.has_asked_for(world, surface) {
-            sum += covering.emission();
+            sum += covering.emission(surface, dir);
         }
         if leg.after != Some(Event::Diffuse) {
             sum += covering.glow();

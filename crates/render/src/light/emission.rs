@@ -128,10 +128,10 @@ fn from_area(
     time: f32,
     draws: &mut Sampler,
 ) -> Option<Emitted> {
-    let (point, radiance) = light.point(piece, draws.next_2d(), time)?;
+    let (point, slot, radiance) = light.point(piece, draws.next_2d(), time)?;
     let (dir, pdf) = aim.direction(point.at.p, choice, draws.next_2d());
     let cos = dir.dot(point.at.ng);
     let flux = cos.abs() / (point.pdf * pdf) * radiance;
-    let leaves = light.shines(cos) && flux.is_finite();
+    let leaves = light.shines(slot, cos) && flux.is_finite();
     leaves.then(|| Emitted { ray: point.at.spawn(dir), flux })
 }

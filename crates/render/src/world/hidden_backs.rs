@@ -44,6 +44,6 @@ impl World<'_> {
     /// Whether a ray in direction `dir` meets a surface from behind that is seen from the front alone.
     fn is_hidden_back(&self, surface: &SurfaceHit, dir: Vec3) -> bool {
         let Owner::Object { material, .. } = surface.owner else { return false };
-        self.scene.materials[material.index()].hides_back && surface.hit.at.ng.dot(dir) > 0.0
+        self.scene.materials[material.index()].hides_back() && surface.hit.at.ng.dot(dir) > 0.0
     }
 }

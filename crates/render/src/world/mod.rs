@@ -149,7 +149,7 @@ impl<'s> World<'s> {
             lights: LightTable::new(scene, lamps(scene, &groups), used, settings.light_choice),
             has_filters: shadows.iter().any(|shadow| shadow.filters),
             all_seen: scene.objects.iter().all(|object| object.visible && object.casts_shadow),
-            hides_backs: scene.materials.iter().any(|material| material.hides_back),
+            hides_backs: scene.materials.iter().any(heliostat_scene::Material::hides_back),
             groups: in_order(scene, groups),
             level,
             scene,

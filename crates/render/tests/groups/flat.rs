@@ -3,7 +3,7 @@
 use crate::common::{Stage, ball_mesh, box_mesh, cuboid, glass, rectangle, sphere, white};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use heliostat_geometry::Transform;
-use heliostat_scene::material::Phong;
+use heliostat_scene::material::{Back, Phong};
 use heliostat_scene::object::Geometry;
 use heliostat_scene::{Group, GroupId, Motion, Object, Scene};
 use proptest::prelude::*;
@@ -95,7 +95,7 @@ fn object(stage: &mut Stage, thing: &Thing, groups: usize) -> Object {
     if thing.kind.is_multiple_of(7) {
         stage.last_material().opacity = heliostat_scene::material::FloatInput::constant(0.5);
     }
-    stage.last_material().hides_back = thing.kind.is_multiple_of(3);
+    stage.last_material().back = if thing.kind.is_multiple_of(3) { Back::Hidden } else { Back::Alike };
     if matches!(object.geometry, Geometry::Group(_)) {
         object.materials.clear();
     }

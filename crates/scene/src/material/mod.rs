@@ -164,9 +164,21 @@ pub struct Material {
     /// # Source
     /// Schmidt, Budge, "Simple Nested Dielectrics in Ray Traced Images", Journal of Graphics Tools, 2002.
     pub priority: Option<u32>,
-    /// Whether its faces are seen from the front alone, where the corners of a triangle run counterclockwise: the camera looks
-    /// past their backs, also by mirrors and clear glass. Light does not: they throw shadows and send it on like any other.
-    pub hides_back: bool,
+    /// What the backs of its faces are, where the corners of a triangle run clockwise.
+    pub back: Back,
+}
+
+/// What the back of a face is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Back {
+    /// As the front.
+    #[default]
+    Alike,
+    /// As the front, but without light of its own: a lamp shines from its front.
+    Dark,
+    /// Dark, and the camera looks past it, also by mirrors and clear glass. Light does not: backs throw shadows and send it on like
+    /// any other.
+    Hidden,
 }
 
 impl Material {
@@ -181,13 +193,23 @@ impl Material {
             relief: None,
             interior: None,
             priority: None,
-            hides_back: false,
+            back: Back::Alike,
         }
     }
 
     /// One of the report's surfaces.
     pub fn new(name: impl Into<String>, phong: Phong) -> Self {
         Self::of(name, Surface::Phong(phong))
+    }
+
+    /// Whether its faces are seen from the front alone.
+    pub fn hides_back(&self) -> bool {
+        self.back == Back::Hidden
+    }
+
+    /// Whether its own light leaves from the backs of its faces too.
+    pub fn shines_back(&self) -> bool {
+        self.back == Back::Alike
     }
 
     /// Whether rays may pass straight through it somewhere.

@@ -20,7 +20,7 @@ use super::textures::{TextureInfo, Textures};
 use extensions::{EmissiveStrength, SpecularGlossiness};
 use gltf::json;
 use heliostat_scene::image::Encoding;
-use heliostat_scene::material::{Channel, ColorInput, FloatInput, Relief, Standard, Surface};
+use heliostat_scene::material::{Back, Channel, ColorInput, FloatInput, Relief, Standard, Surface};
 use heliostat_scene::{Material, Rgb};
 use serde::de::DeserializeOwned;
 
@@ -94,8 +94,9 @@ impl Reader<'_, '_> {
             }
         };
         let (opacity, cutoff) = self.opacity(factor[3], texture.as_ref())?;
-        let hides_back = !self.json.double_sided && !surface.lets_light_through();
-        Ok(Material { opacity, cutoff, relief, hides_back, ..Material::of(name, surface) })
+        let is_closed = !self.json.double_sided && !surface.lets_light_through();
+        let back = if is_closed { Back::Hidden } else { Back::Alike };
+        Ok(Material { opacity, cutoff, relief, back, ..Material::of(name, surface) })
     }
 
     fn standard(

@@ -138,7 +138,7 @@ impl VolPath {
 
         // Add what it gives off by itself.
         way.absorb(covering.left_absorption(surface, dir), surface);
-        self.add_light(world, way, surface, covering.emission(), found);
+        self.add_light(world, way, surface, covering.emission(surface, dir), found);
         if way.after != Some(Event::Diffuse) {
             found.radiance += way.settled() * covering.glow();
         }

@@ -24,6 +24,7 @@ pub(super) struct AreaLight<'s> {
     stand: Stand<'s>,
     glow: Glow<'s>,
     falloff: Falloff,
+    /// Whether both sides shine, somewhere at least.
     two_sided: bool,
     shortcut: Option<Shortcut<'s>>,
     /// Whether the surface stops light.
@@ -152,7 +153,7 @@ impl<'s> AreaLight<'s> {
         })
     }
 
-    /// An object with a material that shines, on both sides; `None` for all others.
+    /// An object with a material that shines; `None` for all others.
     pub(super) fn of_object(stock: &mut Lamps<'s>, object: &'s Object) -> Option<Self> {
         let still = (!object.motion.is_moving()).then(|| Now::Still(object.motion.first()));
         Self::shining(stock, object, Stand::Place(Place::of(&object.motion)), still, object.casts_shadow)
@@ -182,7 +183,7 @@ impl<'s> AreaLight<'s> {
             stand,
             glow,
             falloff: Falloff::InverseSquare,
-            two_sided: true,
+            two_sided: Glow::is_two_sided(stock.scene, object),
             shortcut: flat.or_else(|| still.and_then(|place| sphere_of(&object.geometry, place))),
             stops: true,
             is_met,
@@ -257,8 +258,11 @@ impl<'s> AreaLight<'s> {
 
     /// One point of a piece of any surface, by local area and brightness.
     fn sample_by_area(&self, p: Vec3, piece: usize, u: Vec2, time: f32) -> Option<LightSample> {
-        let (on_light, radiance) = self.point(piece, u, time)?;
+        let (on_light, slot, radiance) = self.point(piece, u, time)?;
         let (to_light, share) = self.share(on_light.at.p - p, on_light.at.ng, on_light.pdf.recip())?;
+        if !self.shines(slot, -to_light.dot(on_light.at.ng)) {
+            return None;
+        }
         Some(LightSample {
             to_light,
             arriving: share * radiance,
@@ -267,11 +271,11 @@ impl<'s> AreaLight<'s> {
         })
     }
 
-    /// A point of a piece, and the radiance there.
-    pub(super) fn point(&self, piece: usize, u: Vec2, time: f32) -> Option<(SurfaceSample, Rgb)> {
+    /// A point of a piece, the material slot and the radiance there.
+    pub(super) fn point(&self, piece: usize, u: Vec2, time: f32) -> Option<(SurfaceSample, u16, Rgb)> {
         let sample = self.emitter.sample(piece, u)?;
         let on_light = self.stand.now(time)?.sample_to_world(&sample.point);
-        Some((on_light, self.glow.radiance(sample.slot, sample.at)))
+        Some((on_light, sample.slot, self.glow.radiance(sample.slot, sample.at)))
     }
 
     /// Whether it weakens with the distance, as light does.
@@ -279,9 +283,9 @@ impl<'s> AreaLight<'s> {
         self.falloff == Falloff::InverseSquare
     }
 
-    /// Whether it shines to the side of its surface to which a direction leads that has this cosine to the normal.
-    pub(super) fn shines(&self, cos: f32) -> bool {
-        cos > 0.0 || self.two_sided
+    /// Whether a slot shines to the side of its surface to which a direction leads that has this cosine to the normal.
+    pub(super) fn shines(&self, slot: u16, cos: f32) -> bool {
+        cos > 0.0 || (self.two_sided && !self.glow.has_dark_back(slot))
     }
 
     /// One point of a sphere by the solid angle under which it is seen; `None` inside.

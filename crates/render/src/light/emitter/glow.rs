@@ -47,6 +47,17 @@ impl<'s> Glow<'s> {
         }
     }
 
+    /// Whether any of it shines to both sides; a light of its own says so itself.
+    pub(in super::super) fn is_two_sided(scene: &Scene, object: &Object) -> bool {
+        let materials = object.materials.iter().map(|id| &scene.materials[id.index()]);
+        materials.filter(|m| !m.surface.emission().is_zero()).any(Material::shines_back)
+    }
+
+    /// Whether a slot of an object is dark from behind.
+    pub(in super::super) fn has_dark_back(&self, slot: u16) -> bool {
+        self.material(slot).is_some_and(|material| !material.shines_back())
+    }
+
     /// Luminance without the texture.
     pub(super) fn factor(&self, slot: u16) -> f32 {
         match self {
