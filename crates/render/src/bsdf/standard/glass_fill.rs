@@ -4,7 +4,7 @@ use super::base::Base;
 use super::fill::Sides;
 use crate::bsdf::fresnel::refraction;
 use crate::bsdf::ggx::Ggx;
-use crate::bsdf::table::{Curve, Place, Profile, Reflection, hemisphere_mean, interface};
+use crate::bsdf::table::{Curve, Place, Profile, Reflection, interface};
 use heliostat_scene::Rgb;
 
 /// What is lost at one scattering, shared between both sides.
@@ -42,7 +42,7 @@ impl Side {
     fn new(ggx: &Ggx, reflection: &Reflection, rays: &[(f32, Curve)], squeeze: Rgb) -> Self {
         let loss = interface(ggx, rays);
         let side = Self { loss, squeeze, mean: Rgb::ZERO };
-        let mean = hemisphere_mean(Some(ggx), |w| ggx.width_along(w), |w| side.loss(&reflection.place(w)));
+        let mean = squeeze * reflection.mean_of_profile(&side.loss);
         Self { mean: mean.max(Rgb::splat(f32::MIN_POSITIVE)), ..side }
     }
 

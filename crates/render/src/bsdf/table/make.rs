@@ -6,10 +6,11 @@
 use super::axis::{axis_index, axis_width, curve_width, grazing_cos};
 use super::chebyshev::{nodes, weights};
 use super::curve::curve_weights;
-use super::profile::even_cos;
+use super::even::{even_axis, even_cos};
+use super::sheen::axis_cos;
 use super::stored::{
-    ANGLES, COS, COUNT, CURVE, DRAWN_OUT, FIBRES, FINE_WIDTH, GLASS, INDEX, LEAN, LOST, LOWER, LOWERS, SHEEN,
-    STRENGTH, TURN, Table, WIDTH,
+    ANGLES, COS, COUNT, CURVE, DRAWN_ANGLES, DRAWN_OUT, FIBRES, FINE_WIDTH, GLASS, INDEX, LEAN, LOST, LOWER,
+    LOWERS, SHEEN, SHEEN_LOWERS, STEEP, STRENGTH, TURN, Table, WIDTH,
 };
 use crate::bsdf::diffuse::lean;
 use crate::bsdf::fresnel::refraction;
@@ -40,7 +41,7 @@ fn rows() -> Vec<(usize, Row)> {
     for (k, (w, c)) in pairs(WIDTH, COS).enumerate() {
         let (alpha, cos) = (width(w), steep(c, width(w)));
         add(LOST, 1, k, Box::new(move || vec![lost(&Ggx::isotropic(alpha), facing(cos, 0.0))]));
-        add(LOWERS, LOWER, k, Box::new(move || lower(cos, alpha)));
+        add(LOWERS, LOWER * CURVE, k, Box::new(move || lower(cos, alpha)));
         for side in 0..2 {
             for i in 0..INDEX[side] {
                 let x = if side == 0 { nodes::<{ INDEX[0] }>()[i] } else { nodes::<{ INDEX[1] }>()[i] };
@@ -53,23 +54,31 @@ fn rows() -> Vec<(usize, Row)> {
     for (k, (w, c)) in pairs(FINE_WIDTH, COS).enumerate() {
         let alpha = axis_width(nodes::<FINE_WIDTH>()[w]);
         let cos = grazing_cos(nodes::<COS>()[c], curve_width(alpha));
-        add(ANGLES, CURVE, k, Box::new(move || angles(cos, alpha)));
+        add(ANGLES, CURVE, k, Box::new(move || angles(&Ggx::isotropic(alpha), facing(cos, 0.0))));
     }
     for (k, (w, s)) in pairs(WIDTH, STRENGTH).enumerate() {
         for (l, (t, c)) in pairs(TURN, COS).enumerate() {
             let ggx = Ggx::stretched_by(width(w), nodes::<STRENGTH>()[s]);
             let along = ggx.along(nodes::<TURN>()[t]);
-            let cos = steep(c, ggx.width_along(along.extend(0.0)));
-            let row: Row = Box::new(move || vec![lost(&ggx, facing(cos, along.to_angle()))]);
-            add(DRAWN_OUT, 1, k * TURN * COS + l, row);
+            let width = ggx.width_along(along.extend(0.0));
+            let (place, angle) = (k * TURN * COS + l, along.to_angle());
+            let cos = steep(c, width);
+            add(DRAWN_OUT, 1, place, Box::new(move || vec![lost(&ggx, facing(cos, angle))]));
+            let cos = steep(c, curve_width(width));
+            add(DRAWN_ANGLES, CURVE, place, Box::new(move || angles(&ggx, facing(cos, angle))));
         }
     }
+    let fibres = |r: usize| Sheen::new(axis_roughness(nodes::<FIBRES>()[r]));
+    for (k, (r, c)) in pairs(FIBRES, STEEP).enumerate() {
+        let (sheen, cos) = (fibres(r), axis_cos(c as f32 / (STEEP - 1) as f32));
+        add(SHEEN, 1, k, Box::new(move || vec![share(&sheen, cos)]));
+    }
     for (k, (r, c)) in pairs(FIBRES, COS).enumerate() {
-        let (roughness, cos) = (axis_roughness(nodes::<FIBRES>()[r]), nodes::<COS>()[c].powi(2));
-        add(SHEEN, 1, k, Box::new(move || vec![sheen(&Sheen::new(roughness), cos)]));
+        let (sheen, cos) = (fibres(r), axis_cos(nodes::<COS>()[c]));
+        add(SHEEN_LOWERS, LOWER, k, Box::new(move || share_from_lower(&sheen, cos)));
     }
     for c in 0..COS {
-        add(LEAN, CURVE, c, Box::new(move || leaning(even_cos(c))));
+        add(LEAN, COS, c, Box::new(move || leaning(even_cos(c))));
     }
     rows
 }
@@ -106,11 +115,10 @@ fn reflected(ggx: &Ggx, wo: Vec3, u: Vec2) -> (f32, Vec3, f32) {
     (wo.dot(h).clamp(0.0, 1.0), wi, hidden)
 }
 
-fn angles(cos: f32, alpha: f32) -> Vec<f32> {
-    let (ggx, wo) = (Ggx::isotropic(alpha), facing(cos, 0.0));
+fn angles(ggx: &Ggx, wo: Vec3) -> Vec<f32> {
     let mut sums = [0.0_f64; CURVE];
     for (u, weight) in square() {
-        let (cos, _, hidden) = reflected(&ggx, wo, u);
+        let (cos, _, hidden) = reflected(ggx, wo, u);
         for (sum, node) in sums.iter_mut().zip(curve_weights(cos)) {
             *sum += weight * f64::from((1.0 - hidden) * node);
         }
@@ -119,17 +127,25 @@ fn angles(cos: f32, alpha: f32) -> Vec<f32> {
     sums.map(|sum| (sum / all) as f32).to_vec()
 }
 
-/// Weights of what is 0 at the viewer's cosine and smooth from there to the horizon, in light from lower than the viewer.
+/// Weights of what is 0 at the viewer's cosine and smooth from there to the horizon, at the cosine `wi`.
+fn lower_weights(cos: f32, wi: f32) -> [f32; LOWER] {
+    let lower = 1.0 - wi / cos;
+    let (weights, nodes) = (weights::<LOWER>(lower), nodes::<LOWER>());
+    std::array::from_fn(|k| weights[k] * lower / nodes[k])
+}
+
+/// Those weights, and those of a curve of reflectance, in light from lower than the viewer.
 fn lower(cos: f32, alpha: f32) -> Vec<f32> {
     let (ggx, wo) = (Ggx::isotropic(alpha), facing(cos, 0.0));
-    let mut sums = [0.0_f64; LOWER];
+    let mut sums = [0.0_f64; LOWER * CURVE];
     for (u, weight) in square() {
-        let (_, wi, hidden) = reflected(&ggx, wo, u);
+        let (turn, wi, hidden) = reflected(&ggx, wo, u);
         if wi.z > 0.0 && wi.z < cos {
-            let lower = 1.0 - wi.z / cos;
-            let parts = weights::<LOWER>(lower).into_iter().zip(nodes::<LOWER>());
-            for (sum, (part, node)) in sums.iter_mut().zip(parts) {
-                *sum += weight * f64::from((1.0 - hidden) * part * lower / node);
+            let curve = curve_weights(turn);
+            for (sums, part) in sums.as_chunks_mut::<CURVE>().0.iter_mut().zip(lower_weights(cos, wi.z)) {
+                for (sum, node) in sums.iter_mut().zip(curve) {
+                    *sum += weight * f64::from((1.0 - hidden) * part * node);
+                }
             }
         }
     }
@@ -159,23 +175,37 @@ fn glass(cos: f32, alpha: f32, eta: f32) -> Vec<f32> {
     sums.map(|sum| sum as f32).to_vec()
 }
 
-fn sheen(sheen: &Sheen, cos: f32) -> f32 {
-    let wo = facing(cos, 0.0);
-    let mut sum = 0.0;
-    for (u, weight) in square() {
-        // Nodes crowd where the angle is grazing: the cosine is the square.
-        let wi = facing(u.y * u.y, std::f32::consts::TAU * u.x);
-        sum += weight * 4.0 * PI * f64::from(u.y * sheen.single(wo, wi));
+/// Light that white fibres send to a viewer from directions of cosines up to `most`, with those cosines.
+fn sheen(sheen: &Sheen, wo: Vec3, most: f32) -> impl Iterator<Item = (f32, f64)> {
+    let sheen = *sheen;
+    square().map(move |(u, weight)| {
+        // Nodes crowd where the angle is grazing: the cosine goes as the fourth power.
+        let cos = most * u.y.powi(4);
+        let value = f64::from(4.0 * most * u.y.powi(3) * sheen.single(wo, facing(cos, std::f32::consts::TAU * u.x)));
+        (cos, weight * 2.0 * PI * value)
+    })
+}
+
+fn share(fibres: &Sheen, cos: f32) -> f32 {
+    sheen(fibres, facing(cos, 0.0), 1.0).map(|(_, light)| light).sum::<f64>() as f32
+}
+
+fn share_from_lower(fibres: &Sheen, cos: f32) -> Vec<f32> {
+    let mut sums = [0.0_f64; LOWER];
+    for (lower, light) in sheen(fibres, facing(cos, 0.0), cos) {
+        for (sum, part) in sums.iter_mut().zip(lower_weights(cos, lower)) {
+            *sum += light * f64::from(part);
+        }
     }
-    sum as f32
+    sums.map(|sum| sum as f32).to_vec()
 }
 
 fn leaning(cos: f32) -> Vec<f32> {
     let wo = facing(cos, 0.0);
-    let mut sums = [0.0_f64; CURVE];
+    let mut sums = [0.0_f64; COS];
     for (u, weight) in square() {
         let wi = facing(u.y.sqrt(), std::f32::consts::TAU * u.x);
-        for (sum, node) in sums.iter_mut().zip(curve_weights(wi.z)) {
+        for (sum, node) in sums.iter_mut().zip(weights::<COS>(even_axis(wi.z))) {
             *sum += weight * f64::from(lean(wo, wi) * node);
         }
     }

@@ -6,17 +6,23 @@
 mod axis;
 mod chebyshev;
 mod curve;
+mod even;
+mod folded;
 mod interface;
+mod levels;
 #[cfg(test)]
 mod make;
 mod means;
 mod profile;
 mod reflection;
 mod sheen;
+mod stopped;
 mod stored;
 
-pub(crate) use curve::{Curve, lean_means};
+pub(crate) use curve::Curve;
+pub(crate) use even::{Even, EvenProfile, even_cosines, even_mean, lean_means};
 pub(crate) use interface::interface;
-pub(crate) use profile::{EvenProfile, Profile, hemisphere_mean};
+pub(crate) use profile::Profile;
 pub(crate) use reflection::{CurveSeen, Place, Reflection};
-pub(crate) use sheen::SheenAlbedo;
+pub(crate) use stopped::Stopped;
+pub(crate) use sheen::{SheenAlbedo, SheenStopped};

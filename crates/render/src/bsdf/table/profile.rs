@@ -1,6 +1,6 @@
 //! What depends on one direction at a rough surface.
 
-use super::axis::{curve_width, grazing_axis, grazing_cos};
+use super::axis::{grazing_axis, grazing_cos};
 use super::chebyshev::{Value, nodes, series, sum};
 use super::stored::{COS, TURN};
 use crate::bsdf::ggx::Ggx;
@@ -54,6 +54,16 @@ impl<V: Value> Profile<V> {
         Self { mean: columns.map(|column| column[0]), turned: Some(Box::new(turned)) }
     }
 
+    /// Of a series over the cosine, the same for all turns.
+    pub(super) fn from_series(series: [V; COS]) -> Self {
+        Self { mean: series, turned: None }
+    }
+
+    /// The series over the cosine, the same for all turns.
+    pub(super) fn series(&self) -> &[V; COS] {
+        &self.mean
+    }
+
     /// The value at a direction.
     #[inline]
     pub(crate) fn at(&self, spot: Spot) -> V {
@@ -74,30 +84,14 @@ impl<V: Value> Profile<V> {
     }
 }
 
-/// A function of the cosine that changes over tenths.
-#[derive(Clone, Debug)]
-pub(crate) struct EvenProfile<V>([V; COS]);
-
-impl<V: Value> EvenProfile<V> {
-    /// Of a function of the cosine and the number of its node.
-    pub(crate) fn new(value: impl Fn(f32, usize) -> V) -> Self {
-        Self(series(&std::array::from_fn(|node| value(even_cos(node), node))))
-    }
-
-    /// The value at a cosine.
-    pub(crate) fn at(&self, cos: f32) -> V {
-        sum(&self.0, grazing_axis(cos.min(1.0), curve_width(0.0)))
-    }
-}
-
-/// The cosine at a node of [`EvenProfile`].
-pub(super) fn even_cos(node: usize) -> f32 {
-    grazing_cos(const { nodes::<COS>() }[node], curve_width(0.0))
-}
-
 /// The direction above `along` at a node of the axis of grazing angles.
 fn node_direction(along: Vec2, node: usize, width: f32) -> Vec3 {
     raised(along, grazing_cos(const { nodes::<COS>() }[node], width))
+}
+
+/// The direction above the x-axis at a place on the axis of grazing angles.
+pub(super) fn axis_direction(x: f32, width: f32) -> Vec3 {
+    raised(Vec2::X, grazing_cos(x, width))
 }
 
 /// The unit direction above `along` at a cosine.

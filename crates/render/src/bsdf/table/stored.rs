@@ -9,7 +9,7 @@ pub(crate) const WIDTH: usize = 9;
 /// Nodes of the roughness for curves of reflectance: what narrow facets do to them moves with the width.
 pub(crate) const FINE_WIDTH: usize = 17;
 /// Nodes of a curve of reflectance over the cosine.
-pub(crate) const CURVE: usize = 10;
+pub(crate) const CURVE: usize = 12;
 /// Heights of light lower than the viewer; see [`super::reflection`].
 pub(crate) const LOWER: usize = 8;
 /// Nodes of the index of refraction, seen from the side of the smaller and of the larger one.
@@ -17,8 +17,10 @@ pub(crate) const INDEX: [usize; 2] = [9, 12];
 /// Nodes of the strength by which highlights are drawn out, and of the turn from one tangent to the other.
 pub(crate) const STRENGTH: usize = 7;
 pub(crate) const TURN: usize = 5;
-/// Nodes of the roughness of fibres.
+/// Nodes of the roughness of fibres, and of light that they send to a viewer from lower directions.
 pub(crate) const FIBRES: usize = 12;
+/// Angles at which fibres are known, evenly over [`super::sheen`]'s axis: too steep at its start for polynomials.
+pub(crate) const STEEP: usize = 129;
 
 /// A table with numbers at the nodes of its axes.
 #[derive(Clone, Copy, Debug)]
@@ -35,8 +37,8 @@ const fn after(before: Table, len: usize) -> Table {
 pub(crate) const LOST: Table = Table { start: 0, len: WIDTH * COS };
 /// `[FINE_WIDTH][COS][CURVE]`: weights of a curve's nodes in its mean over the facets whose light gets away.
 pub(crate) const ANGLES: Table = after(LOST, FINE_WIDTH * COS * CURVE);
-/// `[WIDTH][COS][LOWER]`: weights of nodes in light from lower than the viewer.
-pub(crate) const LOWERS: Table = after(ANGLES, WIDTH * COS * LOWER);
+/// `[WIDTH][COS][LOWER][CURVE]`: weights of nodes, and of a curve's nodes, in light from lower than the viewer.
+pub(crate) const LOWERS: Table = after(ANGLES, WIDTH * COS * LOWER * CURVE);
 /// `[INDEX][WIDTH][COS][1 + CURVE]`: what facets of glass keep at first, without reflection and by a curve of reflectance.
 pub(crate) const GLASS: [Table; 2] = [
     after(LOWERS, INDEX[0] * WIDTH * COS * (1 + CURVE)),
@@ -44,10 +46,14 @@ pub(crate) const GLASS: [Table; 2] = [
 ];
 /// `[WIDTH][STRENGTH][TURN][COS]`: the same share for highlights that are drawn out.
 pub(crate) const DRAWN_OUT: Table = after(GLASS[1], WIDTH * STRENGTH * TURN * COS);
-/// `[FIBRES][COS]`: share of the light that fibres send back.
-pub(crate) const SHEEN: Table = after(DRAWN_OUT, FIBRES * COS);
-/// `[COS][CURVE]`: weights of a curve's nodes in the mean of how light leans at rough matte matter.
-pub(crate) const LEAN: Table = after(SHEEN, COS * CURVE);
+/// `[WIDTH][STRENGTH][TURN][COS][CURVE]`: [`ANGLES`] of them.
+pub(crate) const DRAWN_ANGLES: Table = after(DRAWN_OUT, WIDTH * STRENGTH * TURN * COS * CURVE);
+/// `[FIBRES][STEEP]`: share of the light that fibres send back.
+pub(crate) const SHEEN: Table = after(DRAWN_ANGLES, FIBRES * STEEP);
+/// `[FIBRES][COS][LOWER]`: weights of nodes in light that they send back from lower than the viewer.
+pub(crate) const SHEEN_LOWERS: Table = after(SHEEN, FIBRES * COS * LOWER);
+/// `[COS][COS]`: weights of nodes in the mean of how light leans at rough matte matter.
+pub(crate) const LEAN: Table = after(SHEEN_LOWERS, COS * COS);
 /// How many numbers there are.
 pub(crate) const COUNT: usize = LEAN.start + LEAN.len;
 
