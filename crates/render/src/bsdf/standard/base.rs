@@ -47,10 +47,13 @@ impl Base {
         let film = (point.film, point.film_ior, point.film_thickness);
         let clear = Clear::new(point, is_outside);
         let passage = passage(point, ggx.as_ref(), clear.eta().x);
+        // From inside only total reflection at grazing angles would tell such facets from a smooth boundary.
+        let is_smooth = passage == Passage::Straight && !is_outside;
+        let (ggx, passage) = if is_smooth { (None, Passage::Bent) } else { (ggx, passage) };
         Self {
             ggx,
             metalness: point.metalness,
-            metal: Metal::new(point.base_color, point.conductor).with_film(film.0, film.1, film.2),
+            metal: Metal::new(point.base_color, point.edge_color, point.conductor).with_film(film.0, film.1, film.2),
             clear,
             passage,
             transmission: if passage == Passage::Closed { 0.0 } else { point.transmission },

@@ -1,7 +1,7 @@
 //! Reflectances over the angle.
 
 use super::chebyshev::{cosine_weights, nodes, weights};
-use super::stored::{COS, CURVE};
+use super::stored::CURVE;
 use heliostat_scene::Rgb;
 
 /// A reflectance at Chebyshev's nodes of the cosine.
@@ -19,10 +19,10 @@ impl Curve {
         Self(std::array::from_fn(|k| if k == node { Rgb::ONE } else { Rgb::ZERO }))
     }
 
-    /// Series that these have in the mean: one for each node, added up by the values there.
-    pub(super) fn fold(&self, series: &[f32]) -> [Rgb; COS] {
-        let mut channels = [[0.0; COS]; 3];
-        for (value, series) in self.0.iter().zip(series.as_chunks::<COS>().0) {
+    /// Series, one for each node, added up by the values there.
+    pub(super) fn fold<const N: usize>(&self, series: &[f32]) -> [Rgb; N] {
+        let mut channels = [[0.0; N]; 3];
+        for (value, series) in self.0.iter().zip(series.as_chunks::<N>().0) {
             for (sums, value) in channels.iter_mut().zip(value.to_array()) {
                 sums.iter_mut().zip(series).for_each(|(sum, coefficient)| *sum += value * coefficient);
             }

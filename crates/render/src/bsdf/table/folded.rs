@@ -5,7 +5,9 @@ use super::axis::{curve_width, grazing_axis};
 use super::chebyshev::{nodes, series};
 use super::levels::Levels;
 use super::profile::{axis_direction, hemisphere_mean};
-use super::stored::{ANGLES, COS, CURVE, FINE_WIDTH, GLASS, INDEX, LOST, LOWER, LOWERS, WIDTH};
+use super::stored::{
+    ANGLES, COS, CURVE, EDGE, FINE_WIDTH, GLASS, INDEX, INNER_GLASS, LOST, LOWER, LOWERS, PIECES, WIDTH,
+};
 use crate::bsdf::quadrature::gauss_legendre;
 use heliostat_geometry::error_bound;
 use std::sync::LazyLock;
@@ -17,7 +19,7 @@ const COARSE: usize = 129;
 /// Series of [`LOST`].
 pub(super) static LOST_SERIES: LazyLock<Levels<COS>> = LazyLock::new(|| {
     let rows: Vec<[f32; COS]> = LOST.rows().map(|row| series(&row)).collect();
-    Levels::new::<WIDTH>(FINE, &rows)
+    Levels::new::<FINE_WIDTH>(FINE, &rows)
 });
 
 /// Numbers of [`ANGLES`] at one width.
@@ -26,7 +28,7 @@ const CURVE_SERIES: usize = CURVE * COS;
 /// Series of [`ANGLES`], `[CURVE][COS]`.
 pub(super) static ANGLE_SERIES: LazyLock<Levels<CURVE_SERIES>> = LazyLock::new(|| {
     let rows: Vec<[f32; CURVE_SERIES]> =
-        ANGLES.rows::<{ COS * CURVE }>().map(|row| columns::<CURVE, CURVE_SERIES>(&row)).collect();
+        ANGLES.rows::<{ COS * CURVE }>().map(|row| columns::<CURVE, COS, CURVE_SERIES>(&row)).collect();
     Levels::new::<FINE_WIDTH>(FINE, &rows)
 });
 
@@ -42,27 +44,41 @@ pub(super) static LOWER_NODES: LazyLock<Levels<LOWER_NUMBERS>> = LazyLock::new(|
 /// Numbers of [`GLASS`] at one width and index.
 pub(super) const GLASS_SERIES: usize = (1 + CURVE) * COS;
 
-/// Series of [`GLASS`], `[INDEX][1 + CURVE][COS]`, from the side of the smaller and of the larger index.
-pub(super) static GLASS_NEAR: LazyLock<Levels<{ INDEX[0] * GLASS_SERIES }>> = LazyLock::new(|| glass(0));
-pub(super) static GLASS_FAR: LazyLock<Levels<{ INDEX[1] * GLASS_SERIES }>> = LazyLock::new(|| glass(1));
+/// Series of [`GLASS`], `[INDEX][1 + CURVE][COS]`.
+pub(super) static GLASS_NEAR: LazyLock<Levels<{ INDEX[0] * GLASS_SERIES }>> = LazyLock::new(|| {
+    let columns = |row: [f32; GLASS_SERIES]| columns::<{ 1 + CURVE }, COS, GLASS_SERIES>(&row);
+    let rows: Vec<[f32; GLASS_SERIES]> = GLASS.rows().map(columns).collect();
+    Levels::new::<WIDTH>(COARSE, &by_width(&rows))
+});
 
-fn glass<const N: usize>(side: usize) -> Levels<N> {
-    let rows: Vec<[f32; GLASS_SERIES]> =
-        GLASS[side].rows::<GLASS_SERIES>().map(|row| columns::<{ 1 + CURVE }, GLASS_SERIES>(&row)).collect();
+/// Numbers of [`INNER_GLASS`] at one width, index and piece, and at one width and index.
+pub(super) const EDGE_SERIES: usize = (1 + CURVE) * EDGE;
+pub(super) const EDGES_SERIES: usize = PIECES * EDGE_SERIES;
+
+/// Series of [`INNER_GLASS`], `[INDEX][PIECES][1 + CURVE][EDGE]`.
+pub(super) static GLASS_FAR: LazyLock<Levels<{ INDEX[1] * EDGES_SERIES }>> = LazyLock::new(|| {
+    let columns = |row: [f32; EDGE_SERIES]| columns::<{ 1 + CURVE }, EDGE, EDGE_SERIES>(&row);
+    let pieces: Vec<[f32; EDGE_SERIES]> = INNER_GLASS.rows().map(columns).collect();
+    let rows: Vec<[f32; EDGES_SERIES]> =
+        pieces.as_chunks::<PIECES>().0.iter().filter_map(|pieces| pieces.as_flattened().first_chunk().copied()).collect();
+    Levels::new::<WIDTH>(COARSE, &by_width(&rows))
+});
+
+/// From rows by index and width to those by width, of all indices.
+fn by_width<const M: usize, const N: usize>(rows: &[[f32; M]]) -> Vec<[f32; N]> {
     let at_width = |w: usize| {
         let mut numbers = [0.0; N];
-        let (parts, _) = numbers.as_chunks_mut::<GLASS_SERIES>();
+        let (parts, _) = numbers.as_chunks_mut::<M>();
         parts.iter_mut().enumerate().for_each(|(index, part)| *part = rows[index * WIDTH + w]);
         numbers
     };
-    let widths: Vec<[f32; N]> = (0..WIDTH).map(at_width).collect();
-    Levels::new::<WIDTH>(COARSE, &widths)
+    (0..WIDTH).map(at_width).collect()
 }
 
-/// From `[COS][M]` numbers at nodes of the cosine to `[M][COS]` coefficients of series.
-fn columns<const M: usize, const N: usize>(row: &[f32; N]) -> [f32; N] {
+/// From `[C][M]` numbers at nodes to `[M][C]` coefficients of series.
+fn columns<const M: usize, const C: usize, const N: usize>(row: &[f32; N]) -> [f32; N] {
     let mut columns = [0.0; N];
-    for (m, column) in columns.as_chunks_mut::<COS>().0.iter_mut().enumerate() {
+    for (m, column) in columns.as_chunks_mut::<C>().0.iter_mut().enumerate() {
         *column = series(&std::array::from_fn(|c| row[c * M + m]));
     }
     columns

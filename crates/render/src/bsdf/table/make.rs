@@ -3,14 +3,15 @@
 //! Tests make some numbers anew and compare; with `HELIOSTAT_DEEP` all of them, and with `HELIOSTAT_MAKE_TABLES` the file is
 //! written (`cargo xtask assets`).
 
-use super::axis::{axis_index, axis_width, curve_width, grazing_cos};
+use super::axis::{axis_index, axis_width, critical, curve_width, grazing_cos};
 use super::chebyshev::{nodes, weights};
 use super::curve::curve_weights;
+use super::edge::pieces;
 use super::even::{even_axis, even_cos};
 use super::sheen::axis_cos;
 use super::stored::{
-    ANGLES, COS, COUNT, CURVE, DRAWN_ANGLES, DRAWN_OUT, FIBRES, FINE_WIDTH, GLASS, INDEX, LEAN, LOST, LOWER,
-    LOWERS, SHEEN, SHEEN_LOWERS, STEEP, STRENGTH, TURN, Table, WIDTH,
+    ANGLES, COS, COUNT, CURVE, DRAWN_ANGLES, DRAWN_OUT, EDGE, FIBRES, FINE_WIDTH, GLASS, INDEX, INNER_GLASS, LEAN,
+    LOST, LOWER, LOWERS, PIECES, SHEEN, SHEEN_LOWERS, STEEP, STRENGTH, TURN, Table, WIDTH,
 };
 use crate::bsdf::diffuse::lean;
 use crate::bsdf::fresnel::refraction;
@@ -26,7 +27,7 @@ use std::f64::consts::PI;
 /// Nodes of the integrals over facets, around the normal (half of them where both halves are alike) and away from it, in
 /// pieces: kinks are worth more pieces, not higher degrees.
 const TURNS: usize = 96;
-const PIECES: usize = 12;
+const PARTS: usize = 12;
 const CAPS: usize = 16;
 
 /// A row of a table: all numbers at one place on all axes but the last.
@@ -40,20 +41,25 @@ fn rows() -> Vec<(usize, Row)> {
     let steep = |c: usize, alpha: f32| grazing_cos(nodes::<COS>()[c], alpha);
     for (k, (w, c)) in pairs(WIDTH, COS).enumerate() {
         let (alpha, cos) = (width(w), steep(c, width(w)));
-        add(LOST, 1, k, Box::new(move || vec![lost(&Ggx::isotropic(alpha), facing(cos, 0.0))]));
         add(LOWERS, LOWER * CURVE, k, Box::new(move || lower(cos, alpha)));
-        for side in 0..2 {
-            for i in 0..INDEX[side] {
-                let x = if side == 0 { nodes::<{ INDEX[0] }>()[i] } else { nodes::<{ INDEX[1] }>()[i] };
-                let eta = if side == 0 { axis_index(x) } else { 1.0 / axis_index(x) };
-                let row: Row = Box::new(move || glass(cos, alpha, eta));
-                add(GLASS[side], 1 + CURVE, i * WIDTH * COS + k, row);
-            }
+        for (i, x) in nodes::<{ INDEX[0] }>().into_iter().enumerate() {
+            let row: Row = Box::new(move || glass(cos, alpha, axis_index(x)));
+            add(GLASS, 1 + CURVE, i * WIDTH * COS + k, row);
+        }
+    }
+    for (k, (i, w)) in pairs(INDEX[1], WIDTH).enumerate() {
+        let (ior, alpha) = (axis_index(nodes::<{ INDEX[1] }>()[i]), width(w));
+        for (l, (piece, e)) in pairs(PIECES, EDGE).enumerate() {
+            let cos = pieces(critical(ior))[piece].cos(nodes::<EDGE>()[e], alpha);
+            let row: Row = Box::new(move || glass(cos, alpha, 1.0 / ior));
+            add(INNER_GLASS, 1 + CURVE, k * PIECES * EDGE + l, row);
         }
     }
     for (k, (w, c)) in pairs(FINE_WIDTH, COS).enumerate() {
         let alpha = axis_width(nodes::<FINE_WIDTH>()[w]);
-        let cos = grazing_cos(nodes::<COS>()[c], curve_width(alpha));
+        let cos = steep(c, alpha);
+        add(LOST, 1, k, Box::new(move || vec![lost(&Ggx::isotropic(alpha), facing(cos, 0.0))]));
+        let cos = steep(c, curve_width(alpha));
         add(ANGLES, CURVE, k, Box::new(move || angles(&Ggx::isotropic(alpha), facing(cos, 0.0))));
     }
     for (k, (w, s)) in pairs(WIDTH, STRENGTH).enumerate() {
@@ -94,10 +100,10 @@ fn facing(cos: f32, angle: f32) -> Vec3 {
 /// Numbers in the unit square with weights that add up to 1.
 fn square() -> impl Iterator<Item = (Vec2, f64)> {
     let caps = gauss_legendre::<CAPS>();
-    (0..PIECES * CAPS * TURNS).map(move |k| {
+    (0..PARTS * CAPS * TURNS).map(move |k| {
         let (piece, cap, turn) = (k / (CAPS * TURNS), k / TURNS % CAPS, k % TURNS);
-        let y = (piece as f32 + caps[cap].0) / PIECES as f32;
-        let weight = f64::from(caps[cap].1) / (PIECES * TURNS) as f64;
+        let y = (piece as f32 + caps[cap].0) / PARTS as f32;
+        let weight = f64::from(caps[cap].1) / (PARTS * TURNS) as f64;
         (Vec2::new((turn as f32 + 0.5) / TURNS as f32, y), weight)
     })
 }
@@ -204,9 +210,10 @@ fn leaning(cos: f32) -> Vec<f32> {
     let wo = facing(cos, 0.0);
     let mut sums = [0.0_f64; COS];
     for (u, weight) in square() {
-        let wi = facing(u.y.sqrt(), std::f32::consts::TAU * u.x);
+        // Nodes crowd where the angle is grazing: the cosine is the square.
+        let (wi, area) = (facing(u.y * u.y, std::f32::consts::TAU * u.x), 4.0 * u.y.powi(3));
         for (sum, node) in sums.iter_mut().zip(weights::<COS>(even_axis(wi.z))) {
-            *sum += weight * f64::from(lean(wo, wi) * node);
+            *sum += weight * f64::from(area * lean(wo, wi) * node);
         }
     }
     sums.map(|sum| sum as f32).to_vec()

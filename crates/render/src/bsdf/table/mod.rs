@@ -6,6 +6,7 @@
 mod axis;
 mod chebyshev;
 mod curve;
+mod edge;
 mod even;
 mod folded;
 mod interface;
@@ -21,8 +22,7 @@ mod stored;
 
 pub(crate) use curve::Curve;
 pub(crate) use even::{Even, EvenProfile, even_cosines, even_mean, lean_means};
-pub(crate) use interface::interface;
-pub(crate) use profile::Profile;
+pub(crate) use interface::Losses;
 pub(crate) use reflection::{CurveSeen, Place, Reflection};
 pub(crate) use stopped::Stopped;
 pub(crate) use sheen::{SheenAlbedo, SheenStopped};

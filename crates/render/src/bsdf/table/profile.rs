@@ -29,6 +29,11 @@ impl Spot {
         let turn = ggx.filter(|ggx| !ggx.is_isotropic()).map_or(0.0, |ggx| ggx.turn_of(w));
         Self { x: grazing_axis(w.z.abs().min(1.0), width), turn }
     }
+
+    /// The square of the sine of the turn from the first tangent, where tangents are not alike.
+    pub(super) fn turn(&self) -> f32 {
+        self.turn
+    }
 }
 
 impl<V: Value> Profile<V> {

@@ -30,6 +30,8 @@ pub(crate) struct Place {
     /// For what facets lose, and for curves of reflectance.
     pub(crate) steep: Spot,
     pub(crate) wide: Spot,
+    /// Cosine of the angle to the normal, on either side.
+    pub(super) cos: f32,
 }
 
 impl Reflection {
@@ -61,7 +63,11 @@ impl Reflection {
     #[inline]
     pub(crate) fn place(&self, w: Vec3) -> Place {
         let ggx = self.ggx.as_ref();
-        Place { steep: Spot::new(ggx, self.steep_width(w), w), wide: Spot::new(ggx, self.wide_width(w), w) }
+        Place {
+            steep: Spot::new(ggx, self.steep_width(w), w),
+            wide: Spot::new(ggx, self.wide_width(w), w),
+            cos: w.z.abs().min(1.0),
+        }
     }
 
     fn steep_width(&self, w: Vec3) -> f32 {

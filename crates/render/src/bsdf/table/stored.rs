@@ -14,6 +14,9 @@ pub(crate) const CURVE: usize = 12;
 pub(crate) const LOWER: usize = 8;
 /// Nodes of the index of refraction, seen from the side of the smaller and of the larger one.
 pub(crate) const INDEX: [usize; 2] = [9, 12];
+/// Pieces of the cosine on the latter side, and nodes of each; see [`super::edge`].
+pub(crate) const PIECES: usize = 3;
+pub(crate) const EDGE: usize = 12;
 /// Nodes of the strength by which highlights are drawn out, and of the turn from one tangent to the other.
 pub(crate) const STRENGTH: usize = 7;
 pub(crate) const TURN: usize = 5;
@@ -33,19 +36,19 @@ const fn after(before: Table, len: usize) -> Table {
     Table { start: before.start + before.len, len }
 }
 
-/// `[WIDTH][COS]`: share of the light that facets which reflect all keep at first.
-pub(crate) const LOST: Table = Table { start: 0, len: WIDTH * COS };
+/// `[FINE_WIDTH][COS]`: share of the light that facets which reflect all keep at first.
+pub(crate) const LOST: Table = Table { start: 0, len: FINE_WIDTH * COS };
 /// `[FINE_WIDTH][COS][CURVE]`: weights of a curve's nodes in its mean over the facets whose light gets away.
 pub(crate) const ANGLES: Table = after(LOST, FINE_WIDTH * COS * CURVE);
 /// `[WIDTH][COS][LOWER][CURVE]`: weights of nodes, and of a curve's nodes, in light from lower than the viewer.
 pub(crate) const LOWERS: Table = after(ANGLES, WIDTH * COS * LOWER * CURVE);
-/// `[INDEX][WIDTH][COS][1 + CURVE]`: what facets of glass keep at first, without reflection and by a curve of reflectance.
-pub(crate) const GLASS: [Table; 2] = [
-    after(LOWERS, INDEX[0] * WIDTH * COS * (1 + CURVE)),
-    after(after(LOWERS, INDEX[0] * WIDTH * COS * (1 + CURVE)), INDEX[1] * WIDTH * COS * (1 + CURVE)),
-];
+/// `[INDEX][WIDTH][COS][1 + CURVE]`: what facets of glass keep at first, without reflection and by a curve of reflectance, of
+/// light on the side of the smaller index.
+pub(crate) const GLASS: Table = after(LOWERS, INDEX[0] * WIDTH * COS * (1 + CURVE));
+/// `[INDEX][WIDTH][PIECES][EDGE][1 + CURVE]`: the same on the side of the larger index, in pieces around total reflection.
+pub(crate) const INNER_GLASS: Table = after(GLASS, INDEX[1] * WIDTH * PIECES * EDGE * (1 + CURVE));
 /// `[WIDTH][STRENGTH][TURN][COS]`: the same share for highlights that are drawn out.
-pub(crate) const DRAWN_OUT: Table = after(GLASS[1], WIDTH * STRENGTH * TURN * COS);
+pub(crate) const DRAWN_OUT: Table = after(INNER_GLASS, WIDTH * STRENGTH * TURN * COS);
 /// `[WIDTH][STRENGTH][TURN][COS][CURVE]`: [`ANGLES`] of them.
 pub(crate) const DRAWN_ANGLES: Table = after(DRAWN_OUT, WIDTH * STRENGTH * TURN * COS * CURVE);
 /// `[FIBRES][STEEP]`: share of the light that fibres send back.

@@ -22,6 +22,7 @@ fn white() -> StandardPoint {
         base_color: Rgb::ONE,
         diffuse_roughness: 0.0,
         metalness: 0.0,
+        edge_color: Rgb::ONE,
         conductor: None,
         roughness: 0.0,
         specular: 1.0,
