@@ -53,6 +53,12 @@ impl Ggx {
         Self { alpha: Vec2::new(along, alpha), tangent: Vec2::X }
     }
 
+    /// Of these widths along x and y.
+    #[cfg(test)]
+    pub(crate) fn of_widths(alpha: Vec2) -> Self {
+        Self { alpha, tangent: Vec2::X }
+    }
+
     /// By what strength [`Self::stretched_by`] gives the larger width.
     pub(crate) fn strength(&self) -> f32 {
         let room = 1.0 - self.alpha.y;

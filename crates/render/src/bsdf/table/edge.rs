@@ -60,7 +60,7 @@ static UNIT_NODES: LazyLock<[(f32, f32); NODES]> = LazyLock::new(gauss_legendre)
 
 impl EdgeProfile {
     /// `ior` is the index of this side over that of the other, and `curve` the reflectance over the cosine on the other.
-    pub(super) fn new(alpha: f32, ior: f32, weights: [f32; INDEX[1]], curve: &Curve) -> Self {
+    pub(super) fn new(alpha: f32, ior: f32, weights: [f32; INDEX], curve: &Curve) -> Self {
         let numbers: [f32; EDGES_SERIES] = at_index(&GLASS_FAR, alpha, weights);
         let series = |piece: usize| {
             let (plain, curves) = numbers[piece * EDGE_SERIES..][..EDGE_SERIES].split_at(EDGE);
@@ -69,6 +69,14 @@ impl EdgeProfile {
         };
         let width = alpha.max(error_bound::LEAST_WIDTH);
         Self { critical: critical(ior), width, series: std::array::from_fn(series) }
+    }
+
+    /// With so much more lost, by series for each piece.
+    pub(super) fn with_more<const N: usize>(mut self, more: &[[Rgb; N]; PIECES]) -> Self {
+        for (series, more) in self.series.iter_mut().zip(more) {
+            series.iter_mut().zip(more).for_each(|(coefficient, more)| *coefficient += *more);
+        }
+        self
     }
 
     /// At a cosine.

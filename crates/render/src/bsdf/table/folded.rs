@@ -6,7 +6,7 @@ use super::chebyshev::{nodes, series};
 use super::levels::Levels;
 use super::profile::{axis_direction, hemisphere_mean};
 use super::stored::{
-    ANGLES, COS, CURVE, EDGE, FINE_WIDTH, GLASS, INDEX, INNER_GLASS, LOST, LOWER, LOWERS, PIECES, WIDTH,
+    ANGLES, COS, CURVE, EDGE, FINE_WIDTH, GLASS, GLASS_WIDTH, INDEX, INNER_GLASS, LOST, LOWER, LOWERS, PIECES, WIDTH,
 };
 use crate::bsdf::quadrature::gauss_legendre;
 use heliostat_geometry::error_bound;
@@ -45,10 +45,10 @@ pub(super) static LOWER_NODES: LazyLock<Levels<LOWER_NUMBERS>> = LazyLock::new(|
 pub(super) const GLASS_SERIES: usize = (1 + CURVE) * COS;
 
 /// Series of [`GLASS`], `[INDEX][1 + CURVE][COS]`.
-pub(super) static GLASS_NEAR: LazyLock<Levels<{ INDEX[0] * GLASS_SERIES }>> = LazyLock::new(|| {
+pub(super) static GLASS_NEAR: LazyLock<Levels<{ INDEX * GLASS_SERIES }>> = LazyLock::new(|| {
     let columns = |row: [f32; GLASS_SERIES]| columns::<{ 1 + CURVE }, COS, GLASS_SERIES>(&row);
     let rows: Vec<[f32; GLASS_SERIES]> = GLASS.rows().map(columns).collect();
-    Levels::new::<WIDTH>(COARSE, &by_width(&rows))
+    Levels::new::<GLASS_WIDTH>(COARSE, &by_width(&rows))
 });
 
 /// Numbers of [`INNER_GLASS`] at one width, index and piece, and at one width and index.
@@ -56,12 +56,12 @@ pub(super) const EDGE_SERIES: usize = (1 + CURVE) * EDGE;
 pub(super) const EDGES_SERIES: usize = PIECES * EDGE_SERIES;
 
 /// Series of [`INNER_GLASS`], `[INDEX][PIECES][1 + CURVE][EDGE]`.
-pub(super) static GLASS_FAR: LazyLock<Levels<{ INDEX[1] * EDGES_SERIES }>> = LazyLock::new(|| {
+pub(super) static GLASS_FAR: LazyLock<Levels<{ INDEX * EDGES_SERIES }>> = LazyLock::new(|| {
     let columns = |row: [f32; EDGE_SERIES]| columns::<{ 1 + CURVE }, EDGE, EDGE_SERIES>(&row);
     let pieces: Vec<[f32; EDGE_SERIES]> = INNER_GLASS.rows().map(columns).collect();
     let rows: Vec<[f32; EDGES_SERIES]> =
         pieces.as_chunks::<PIECES>().0.iter().filter_map(|pieces| pieces.as_flattened().first_chunk().copied()).collect();
-    Levels::new::<WIDTH>(COARSE, &by_width(&rows))
+    Levels::new::<GLASS_WIDTH>(COARSE, &by_width(&rows))
 });
 
 /// From rows by index and width to those by width, of all indices.
@@ -69,10 +69,10 @@ fn by_width<const M: usize, const N: usize>(rows: &[[f32; M]]) -> Vec<[f32; N]> 
     let at_width = |w: usize| {
         let mut numbers = [0.0; N];
         let (parts, _) = numbers.as_chunks_mut::<M>();
-        parts.iter_mut().enumerate().for_each(|(index, part)| *part = rows[index * WIDTH + w]);
+        parts.iter_mut().enumerate().for_each(|(index, part)| *part = rows[index * GLASS_WIDTH + w]);
         numbers
     };
-    (0..WIDTH).map(at_width).collect()
+    (0..GLASS_WIDTH).map(at_width).collect()
 }
 
 /// From `[C][M]` numbers at nodes to `[M][C]` coefficients of series.

@@ -3,12 +3,13 @@
 use super::axis::index_axis;
 use super::chebyshev::{nodes, weights};
 use super::curve::Curve;
+use super::drawn::Widths;
 use super::edge::EdgeProfile;
 use super::folded::{GLASS_NEAR, GLASS_SERIES};
 use super::levels::Levels;
 use super::profile::Profile;
-use super::reflection::{Place, Reflection, plane_at};
-use super::stored::{COS, CURVE, GLASS, INDEX, TURN, WIDTH};
+use super::reflection::{Place, Reflection};
+use super::stored::{COS, INDEX, TURN};
 use crate::bsdf::ggx::Ggx;
 use heliostat_scene::Rgb;
 
@@ -30,10 +31,10 @@ impl Losses {
     /// the smaller index; where that side sees no light, all is reflected. With dispersion there is one of both per channel.
     pub(crate) fn new(ggx: &Ggx, rays: &[(f32, Curve)]) -> Self {
         let is_far = rays.iter().any(|(eta, _)| *eta < 1.0);
-        match (is_far, ggx.is_isotropic()) {
-            (true, _) => Self::Far(Inner(rays.iter().map(|(eta, curve)| far(ggx, *eta, curve)).collect())),
-            (false, true) => Self::Near(even(ggx.mean_alpha(), rays)),
-            (false, false) => Self::Near(drawn_out(ggx, rays)),
+        if is_far {
+            Self::Far(Inner(rays.iter().map(|(eta, curve)| far(ggx, *eta, curve)).collect()))
+        } else {
+            Self::Near(near(ggx, rays))
         }
     }
 
@@ -73,26 +74,45 @@ fn by_channel<R>(rays: &[R], value: impl Fn(&R) -> Rgb) -> Rgb {
 
 fn far(ggx: &Ggx, eta: f32, curve: &Curve) -> Vec<EdgeProfile> {
     let ior = (1.0 / eta).max(1.0);
-    let index = weights::<{ INDEX[1] }>(index_axis(ior));
+    let index = weights::<INDEX>(index_axis(ior));
     let profile = |alpha: f32| EdgeProfile::new(alpha, ior, index, curve);
     if ggx.is_isotropic() {
         return vec![profile(ggx.mean_alpha())];
     }
-    const { nodes::<TURN>() }.map(|turn| profile(ggx.width_along(ggx.along(turn).extend(0.0)))).to_vec()
+    let at_turn = |turn: f32| {
+        let widths = Widths::new(ggx, turn);
+        profile(widths.along).with_more(&widths.more_inside(ior, curve))
+    };
+    const { nodes::<TURN>() }.map(at_turn).to_vec()
 }
 
-fn even(alpha: f32, rays: &[(f32, Curve)]) -> Profile<Rgb> {
-    let parts: Vec<[Rgb; COS]> = rays
-        .iter()
-        .map(|(eta, curve)| {
-            let index = weights::<{ INDEX[0] }>(index_axis(*eta));
-            let numbers: [f32; GLASS_SERIES] = at_index(&GLASS_NEAR, alpha, index);
-            let (plain, curves) = numbers.split_at(COS);
-            let folded = curve.fold::<COS>(curves);
-            std::array::from_fn(|k| folded[k] + plain[k])
+fn near(ggx: &Ggx, rays: &[(f32, Curve)]) -> Profile<Rgb> {
+    if ggx.is_isotropic() {
+        return Profile::from_series(series_of(rays, |eta, curve| even(ggx.mean_alpha(), eta, curve)));
+    }
+    let at_turn = |turn: f32| {
+        let widths = Widths::new(ggx, turn);
+        series_of(rays, |eta, curve| {
+            let mut series = even(widths.along, eta, curve);
+            let more = widths.more_outside(eta, curve);
+            series.iter_mut().zip(more).for_each(|(coefficient, more)| *coefficient += more);
+            series
         })
-        .collect();
-    Profile::from_series(std::array::from_fn(|k| by_channel(&parts, |part| part[k])))
+    };
+    Profile::from_turns(&const { nodes::<TURN>() }.map(at_turn))
+}
+
+fn series_of(rays: &[(f32, Curve)], series: impl Fn(f32, &Curve) -> [Rgb; COS]) -> [Rgb; COS] {
+    let parts: Vec<[Rgb; COS]> = rays.iter().map(|(eta, curve)| series(*eta, curve)).collect();
+    std::array::from_fn(|k| by_channel(&parts, |part| part[k]))
+}
+
+/// The series for facets that are the same in all directions.
+fn even(alpha: f32, eta: f32, curve: &Curve) -> [Rgb; COS] {
+    let numbers: [f32; GLASS_SERIES] = at_index(&GLASS_NEAR, alpha, weights::<INDEX>(index_axis(eta)));
+    let (plain, curves) = numbers.split_at(COS);
+    let folded = curve.fold::<COS>(curves);
+    std::array::from_fn(|k| folded[k] + plain[k])
 }
 
 /// The numbers at a width and between the nodes of the index.
@@ -110,21 +130,4 @@ pub(super) fn at_index<const I: usize, const M: usize, const N: usize>(
         }
     }
     sums
-}
-
-fn drawn_out(ggx: &Ggx, rays: &[(f32, Curve)]) -> Profile<Rgb> {
-    let mut plane = [[Rgb::ZERO; COS]; WIDTH];
-    for (channel, (eta, curve)) in rays.iter().enumerate() {
-        let nodes: [f32; WIDTH * COS * (1 + CURVE)] = GLASS.at::<{ INDEX[0] }, _>(index_axis(*eta));
-        for (k, node) in nodes.as_chunks::<{ 1 + CURVE }>().0.iter().enumerate() {
-            let value = curve.sum(&node[1..]) + node[0];
-            let place = &mut plane[k / COS][k % COS];
-            if rays.len() == 1 { *place = value } else { place[channel] = value[channel] }
-        }
-    }
-    Profile::new(
-        Some(ggx),
-        |w| ggx.width_along(w),
-        |w, _| plane_at(&plane, ggx.alike(w), ggx.alike(w), w).clamp(Rgb::ZERO, Rgb::ONE),
-    )
 }

@@ -10,8 +10,9 @@ use super::edge::pieces;
 use super::even::{even_axis, even_cos};
 use super::sheen::axis_cos;
 use super::stored::{
-    ANGLES, COS, COUNT, CURVE, DRAWN_ANGLES, DRAWN_OUT, EDGE, FIBRES, FINE_WIDTH, GLASS, INDEX, INNER_GLASS, LEAN,
-    LOST, LOWER, LOWERS, PIECES, SHEEN, SHEEN_LOWERS, STEEP, STRENGTH, TURN, Table, WIDTH,
+    ANGLES, COS, COUNT, CURVE, DRAWN_ANGLES, DRAWN_COS, DRAWN_CURVE, DRAWN_EDGE, DRAWN_GLASS, DRAWN_INDEX,
+    DRAWN_INNER, DRAWN_OUT, DRAWN_WIDTH, EDGE, FIBRES, FINE_WIDTH, GLASS, GLASS_WIDTH, INDEX, INNER_GLASS, LEAN, LOST,
+    LOWER, LOWERS, PIECES, SHEEN, SHEEN_LOWERS, STEEP, STRENGTH, TURN, Table, WIDTH,
 };
 use crate::bsdf::diffuse::lean;
 use crate::bsdf::fresnel::refraction;
@@ -25,9 +26,10 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Nodes of the integrals over facets, around the normal (half of them where both halves are alike) and away from it, in
-/// pieces: kinks are worth more pieces, not higher degrees.
+/// parts: kinks are worth more parts, not higher degrees, and edges of total reflection more of them.
 const TURNS: usize = 96;
 const PARTS: usize = 12;
+const INNER_PARTS: usize = 24;
 const CAPS: usize = 16;
 
 /// A row of a table: all numbers at one place on all axes but the last.
@@ -42,17 +44,35 @@ fn rows() -> Vec<(usize, Row)> {
     for (k, (w, c)) in pairs(WIDTH, COS).enumerate() {
         let (alpha, cos) = (width(w), steep(c, width(w)));
         add(LOWERS, LOWER * CURVE, k, Box::new(move || lower(cos, alpha)));
-        for (i, x) in nodes::<{ INDEX[0] }>().into_iter().enumerate() {
-            let row: Row = Box::new(move || glass(cos, alpha, axis_index(x)));
-            add(GLASS, 1 + CURVE, i * WIDTH * COS + k, row);
+    }
+    for (k, (i, w)) in pairs(INDEX, GLASS_WIDTH).enumerate() {
+        let (ior, alpha) = (axis_index(nodes::<INDEX>()[i]), axis_width(nodes::<GLASS_WIDTH>()[w]));
+        let ggx = Ggx::isotropic(alpha);
+        for c in 0..COS {
+            let wo = facing(steep(c, alpha), 0.0);
+            add(GLASS, 1 + CURVE, k * COS + c, Box::new(move || glass::<CURVE>(&ggx, wo, ior)));
+        }
+        for (l, (piece, e)) in pairs(PIECES, EDGE).enumerate() {
+            let wo = facing(pieces(critical(ior))[piece].cos(nodes::<EDGE>()[e], alpha), 0.0);
+            let row: Row = Box::new(move || glass::<CURVE>(&ggx, wo, 1.0 / ior));
+            add(INNER_GLASS, 1 + CURVE, k * PIECES * EDGE + l, row);
         }
     }
-    for (k, (i, w)) in pairs(INDEX[1], WIDTH).enumerate() {
-        let (ior, alpha) = (axis_index(nodes::<{ INDEX[1] }>()[i]), width(w));
-        for (l, (piece, e)) in pairs(PIECES, EDGE).enumerate() {
-            let cos = pieces(critical(ior))[piece].cos(nodes::<EDGE>()[e], alpha);
-            let row: Row = Box::new(move || glass(cos, alpha, 1.0 / ior));
-            add(INNER_GLASS, 1 + CURVE, k * PIECES * EDGE + l, row);
+    let widths = nodes::<DRAWN_WIDTH>().map(axis_width);
+    for (k, (i, (a, b))) in pairs(DRAWN_INDEX, DRAWN_WIDTH * DRAWN_WIDTH)
+        .map(|(i, ab)| (i, (ab / DRAWN_WIDTH, ab % DRAWN_WIDTH)))
+        .enumerate()
+    {
+        let (ior, along, across) = (axis_index(nodes::<DRAWN_INDEX>()[i]), widths[a], widths[b]);
+        for (c, x) in nodes::<DRAWN_COS>().into_iter().enumerate() {
+            let wo = facing(grazing_cos(x, along), 0.0);
+            let row: Row = Box::new(move || glass_more(along, across, wo, ior));
+            add(DRAWN_GLASS, 1 + DRAWN_CURVE, k * DRAWN_COS + c, row);
+        }
+        for (l, (piece, e)) in pairs(PIECES, DRAWN_EDGE).enumerate() {
+            let wo = facing(pieces(critical(ior))[piece].cos(nodes::<DRAWN_EDGE>()[e], along), 0.0);
+            let row: Row = Box::new(move || glass_more(along, across, wo, 1.0 / ior));
+            add(DRAWN_INNER, 1 + DRAWN_CURVE, k * PIECES * DRAWN_EDGE + l, row);
         }
     }
     for (k, (w, c)) in pairs(FINE_WIDTH, COS).enumerate() {
@@ -97,20 +117,20 @@ fn facing(cos: f32, angle: f32) -> Vec3 {
     ((1.0 - cos * cos).max(0.0).sqrt() * Vec2::from_angle(angle)).extend(cos)
 }
 
-/// Numbers in the unit square with weights that add up to 1.
-fn square() -> impl Iterator<Item = (Vec2, f64)> {
+/// Numbers in the unit square with weights that add up to 1, in so many parts.
+fn square(parts: usize) -> impl Iterator<Item = (Vec2, f64)> {
     let caps = gauss_legendre::<CAPS>();
-    (0..PARTS * CAPS * TURNS).map(move |k| {
+    (0..parts * CAPS * TURNS).map(move |k| {
         let (piece, cap, turn) = (k / (CAPS * TURNS), k / TURNS % CAPS, k % TURNS);
-        let y = (piece as f32 + caps[cap].0) / PARTS as f32;
-        let weight = f64::from(caps[cap].1) / (PARTS * TURNS) as f64;
+        let y = (piece as f32 + caps[cap].0) / parts as f32;
+        let weight = f64::from(caps[cap].1) / (parts * TURNS) as f64;
         (Vec2::new((turn as f32 + 0.5) / TURNS as f32, y), weight)
     })
 }
 
 /// Share of the light that facets which reflect all keep at first.
 fn lost(ggx: &Ggx, wo: Vec3) -> f32 {
-    square().map(|(u, weight)| weight * f64::from(reflected(ggx, wo, u).2)).sum::<f64>() as f32
+    square(PARTS).map(|(u, weight)| weight * f64::from(reflected(ggx, wo, u).2)).sum::<f64>() as f32
 }
 
 /// A facet by two numbers: cosine to the viewer, the direction that it reflects to him, and the share that it keeps.
@@ -123,7 +143,7 @@ fn reflected(ggx: &Ggx, wo: Vec3, u: Vec2) -> (f32, Vec3, f32) {
 
 fn angles(ggx: &Ggx, wo: Vec3) -> Vec<f32> {
     let mut sums = [0.0_f64; CURVE];
-    for (u, weight) in square() {
+    for (u, weight) in square(PARTS) {
         let (cos, _, hidden) = reflected(ggx, wo, u);
         for (sum, node) in sums.iter_mut().zip(curve_weights(cos)) {
             *sum += weight * f64::from((1.0 - hidden) * node);
@@ -144,7 +164,7 @@ fn lower_weights(cos: f32, wi: f32) -> [f32; LOWER] {
 fn lower(cos: f32, alpha: f32) -> Vec<f32> {
     let (ggx, wo) = (Ggx::isotropic(alpha), facing(cos, 0.0));
     let mut sums = [0.0_f64; LOWER * CURVE];
-    for (u, weight) in square() {
+    for (u, weight) in square(PARTS) {
         let (turn, wi, hidden) = reflected(&ggx, wo, u);
         if wi.z > 0.0 && wi.z < cos {
             let curve = curve_weights(turn);
@@ -158,10 +178,16 @@ fn lower(cos: f32, alpha: f32) -> Vec<f32> {
     sums.map(|sum| sum as f32).to_vec()
 }
 
-fn glass(cos: f32, alpha: f32, eta: f32) -> Vec<f32> {
-    let (ggx, wo) = (Ggx::isotropic(alpha), facing(cos, 0.0));
-    let mut sums = [0.0_f64; 1 + CURVE];
-    for (u, weight) in square() {
+/// What facets of glass of these widths lose more than those of the width along x.
+fn glass_more(along: f32, across: f32, wo: Vec3, eta: f32) -> Vec<f32> {
+    let drawn = glass::<DRAWN_CURVE>(&Ggx::of_widths(Vec2::new(along, across)), wo, eta);
+    let even = glass::<DRAWN_CURVE>(&Ggx::isotropic(along), wo, eta);
+    drawn.iter().zip(even).map(|(drawn, even)| drawn - even).collect()
+}
+
+fn glass<const N: usize>(ggx: &Ggx, wo: Vec3, eta: f32) -> Vec<f32> {
+    let mut sums = vec![0.0_f64; 1 + N];
+    for (u, weight) in square(INNER_PARTS) {
         let h = ggx.visible(wo, u);
         let cos = wo.dot(h).clamp(0.0, 1.0);
         let mirrored = 2.0 * cos * h - wo;
@@ -174,17 +200,18 @@ fn glass(cos: f32, alpha: f32, eta: f32) -> Vec<f32> {
         let bent = refract(wo, h, cos, other, eta);
         let stopped = if bent.z < 0.0 { ggx.hidden(wo, bent) } else { 1.0 };
         sums[0] += weight * f64::from(stopped);
-        for (sum, node) in sums[1..].iter_mut().zip(curve_weights(if eta < 1.0 { other } else { cos })) {
+        let place = if eta < 1.0 { other } else { cos };
+        for (sum, node) in sums[1..].iter_mut().zip(weights::<N>(place.clamp(0.0, 1.0))) {
             *sum += weight * f64::from((kept - stopped) * node);
         }
     }
-    sums.map(|sum| sum as f32).to_vec()
+    sums.into_iter().map(|sum| sum as f32).collect()
 }
 
 /// Light that white fibres send to a viewer from directions of cosines up to `most`, with those cosines.
 fn sheen(sheen: &Sheen, wo: Vec3, most: f32) -> impl Iterator<Item = (f32, f64)> {
     let sheen = *sheen;
-    square().map(move |(u, weight)| {
+    square(PARTS).map(move |(u, weight)| {
         // Nodes crowd where the angle is grazing: the cosine goes as the fourth power.
         let cos = most * u.y.powi(4);
         let value = f64::from(4.0 * most * u.y.powi(3) * sheen.single(wo, facing(cos, std::f32::consts::TAU * u.x)));
@@ -209,7 +236,7 @@ fn share_from_lower(fibres: &Sheen, cos: f32) -> Vec<f32> {
 fn leaning(cos: f32) -> Vec<f32> {
     let wo = facing(cos, 0.0);
     let mut sums = [0.0_f64; COS];
-    for (u, weight) in square() {
+    for (u, weight) in square(PARTS) {
         // Nodes crowd where the angle is grazing: the cosine is the square.
         let (wi, area) = (facing(u.y * u.y, std::f32::consts::TAU * u.x), 4.0 * u.y.powi(3));
         for (sum, node) in sums.iter_mut().zip(weights::<COS>(even_axis(wi.z))) {

@@ -6,6 +6,7 @@
 mod axis;
 mod chebyshev;
 mod curve;
+mod drawn;
 mod edge;
 mod even;
 mod folded;

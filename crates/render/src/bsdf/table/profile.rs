@@ -52,7 +52,11 @@ impl<V: Value> Profile<V> {
         if drawn_out.is_none() {
             return Self { mean: row(0), turned: None };
         }
-        let rows: [[V; COS]; TURN] = std::array::from_fn(row);
+        Self::from_turns(&std::array::from_fn(row))
+    }
+
+    /// Of series over the cosine at the nodes of the turn.
+    pub(super) fn from_turns(rows: &[[V; COS]; TURN]) -> Self {
         let columns: [[V; TURN]; COS] =
             std::array::from_fn(|c| series(&std::array::from_fn(|turn| rows[turn][c])));
         let turned = std::array::from_fn(|j| std::array::from_fn(|c| columns[c][j + 1]));

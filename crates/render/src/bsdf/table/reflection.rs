@@ -192,17 +192,6 @@ impl CurveSeen {
     }
 }
 
-/// The value between nodes of the width and of the cosine, on the axis for `width`.
-pub(super) fn plane_at<const W: usize>(plane: &[[Rgb; COS]; W], alpha: f32, width: f32, w: Vec3) -> Rgb {
-    let at_cos = weights::<COS>(grazing_axis(w.z.abs().min(1.0), width));
-    let mut sum = Rgb::ZERO;
-    for (row, at_width) in plane.iter().zip(weights::<W>(width_axis(alpha))) {
-        let value: Rgb = row.iter().zip(at_cos).map(|(&value, weight)| value * weight).sum();
-        sum += at_width * value;
-    }
-    sum
-}
-
 /// Cosines and weights of means over the hemisphere, for facets that are the same in all directions.
 fn steep_nodes(alpha: f32) -> ([f32; STEEPS], [f32; STEEPS]) {
     let numbers = STEEP_NODES.at(alpha);
