@@ -80,16 +80,16 @@ impl Ggx {
         (self.turned(w).truncate().normalize_or(Vec2::X) * self.alpha).length()
     }
 
-    /// Square of the sine of the angle between the first tangent and the plane of the normal and `w`.
+    /// How far the width in the plane of the normal and `w` is from the smaller to the larger one, where these differ.
     pub(crate) fn turn_of(&self, w: Vec3) -> f32 {
-        let flat = self.turned(w).truncate();
-        let length = flat.length_squared();
-        if length > 0.0 { flat.y * flat.y / length } else { 0.0 }
+        ((self.width_along(w) - self.alpha.y) / (self.alpha.x - self.alpha.y)).clamp(0.0, 1.0)
     }
 
     /// The direction in the tangent plane whose [`Self::turn_of`] is `turn`.
     pub(crate) fn along(&self, turn: f32) -> Vec2 {
-        Vec2::new((1.0 - turn).max(0.0).sqrt(), turn.sqrt()).rotate(self.tangent)
+        let width = self.alpha.y + turn * (self.alpha.x - self.alpha.y);
+        let sin2 = (1.0 - turn) * (self.alpha.x + width) / (self.alpha.x + self.alpha.y);
+        Vec2::new((1.0 - sin2).max(0.0).sqrt(), sin2.sqrt()).rotate(self.tangent)
     }
 
     /// Width of the isotropic distribution that looks about the same from `w`: at grazing angles only slopes towards the

@@ -53,14 +53,14 @@ pub(super) struct EdgeProfile {
 }
 
 /// How many nodes means over a piece have.
-const NODES: usize = 16;
+const NODES: usize = 32;
 
 /// The nodes, evenly over the logarithm of distances above the width.
 static UNIT_NODES: LazyLock<[(f32, f32); NODES]> = LazyLock::new(gauss_legendre);
 
 impl EdgeProfile {
     /// `ior` is the index of this side over that of the other, and `curve` the reflectance over the cosine on the other.
-    pub(super) fn new(alpha: f32, ior: f32, weights: [f32; INDEX], curve: &Curve) -> Self {
+    pub(super) fn new(alpha: f32, ior: f32, weights: [f32; INDEX[1]], curve: &Curve) -> Self {
         let numbers: [f32; EDGES_SERIES] = at_index(&GLASS_FAR, alpha, weights);
         let series = |piece: usize| {
             let (plain, curves) = numbers[piece * EDGE_SERIES..][..EDGE_SERIES].split_at(EDGE);

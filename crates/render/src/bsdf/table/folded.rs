@@ -45,7 +45,7 @@ pub(super) static LOWER_NODES: LazyLock<Levels<LOWER_NUMBERS>> = LazyLock::new(|
 pub(super) const GLASS_SERIES: usize = (1 + CURVE) * COS;
 
 /// Series of [`GLASS`], `[INDEX][1 + CURVE][COS]`.
-pub(super) static GLASS_NEAR: LazyLock<Levels<{ INDEX * GLASS_SERIES }>> = LazyLock::new(|| {
+pub(super) static GLASS_NEAR: LazyLock<Levels<{ INDEX[0] * GLASS_SERIES }>> = LazyLock::new(|| {
     let columns = |row: [f32; GLASS_SERIES]| columns::<{ 1 + CURVE }, COS, GLASS_SERIES>(&row);
     let rows: Vec<[f32; GLASS_SERIES]> = GLASS.rows().map(columns).collect();
     Levels::new::<GLASS_WIDTH>(COARSE, &by_width(&rows))
@@ -56,7 +56,7 @@ pub(super) const EDGE_SERIES: usize = (1 + CURVE) * EDGE;
 pub(super) const EDGES_SERIES: usize = PIECES * EDGE_SERIES;
 
 /// Series of [`INNER_GLASS`], `[INDEX][PIECES][1 + CURVE][EDGE]`.
-pub(super) static GLASS_FAR: LazyLock<Levels<{ INDEX * EDGES_SERIES }>> = LazyLock::new(|| {
+pub(super) static GLASS_FAR: LazyLock<Levels<{ INDEX[1] * EDGES_SERIES }>> = LazyLock::new(|| {
     let columns = |row: [f32; EDGE_SERIES]| columns::<{ 1 + CURVE }, EDGE, EDGE_SERIES>(&row);
     let pieces: Vec<[f32; EDGE_SERIES]> = INNER_GLASS.rows().map(columns).collect();
     let rows: Vec<[f32; EDGES_SERIES]> =
@@ -85,7 +85,7 @@ fn columns<const M: usize, const C: usize, const N: usize>(row: &[f32; N]) -> [f
 }
 
 /// Nodes of means over the hemisphere of what depends on a direction as the losses of facets do.
-pub(super) const STEEPS: usize = 24;
+pub(super) const STEEPS: usize = 32;
 
 /// Cosines of these nodes, then their weights: what is small at all but grazing angles must not be left over from large
 /// numbers that cancel.

@@ -7,10 +7,11 @@ use super::drawn::Widths;
 use super::edge::EdgeProfile;
 use super::folded::{GLASS_NEAR, GLASS_SERIES};
 use super::levels::Levels;
-use super::profile::Profile;
+use super::profile::{self, AROUND, Profile};
 use super::reflection::{Place, Reflection};
 use super::stored::{COS, INDEX, TURN};
 use crate::bsdf::ggx::Ggx;
+use glam::Vec2;
 use heliostat_scene::Rgb;
 
 /// Light lost at one scattering, from one side, by the direction.
@@ -24,7 +25,35 @@ pub(crate) enum Losses {
 
 /// For each ray, by the turn where highlights are drawn out.
 #[derive(Clone, Debug)]
-pub(crate) struct Inner(Vec<Vec<EdgeProfile>>);
+pub(crate) struct Inner {
+    rays: Vec<Vec<EdgeProfile>>,
+    /// Weights of the nodes of the turn in the mean around the normal.
+    around: [f32; TURN],
+}
+
+impl Inner {
+    fn new(ggx: &Ggx, rays: &[(f32, Curve)]) -> Self {
+        let mut around = [0.0; TURN];
+        for along in profile::around(ggx) {
+            for (sum, weight) in around.iter_mut().zip(weights::<TURN>(turn_along(ggx, along))) {
+                *sum += weight / AROUND as f32;
+            }
+        }
+        Self { rays: rays.iter().map(|(eta, curve)| far(ggx, *eta, curve)).collect(), around }
+    }
+
+    /// The mean of what is known at the nodes of the turn, if it matters, by their weights.
+    fn over_turns(&self, weights: impl Fn() -> [f32; TURN], value: impl Fn(&EdgeProfile) -> Rgb) -> Rgb {
+        by_channel(&self.rays, |turns| match turns.as_slice() {
+            [profile] => value(profile),
+            _ => turns.iter().zip(weights()).map(|(profile, weight)| weight * value(profile)).sum(),
+        })
+    }
+}
+
+fn turn_along(ggx: &Ggx, along: Vec2) -> f32 {
+    if ggx.is_isotropic() { 0.0 } else { ggx.turn_of(along.extend(0.0)) }
+}
 
 impl Losses {
     /// `eta` is the index of the other side over that of this one, and `curve` the reflectance over the cosine on the side of
@@ -32,7 +61,7 @@ impl Losses {
     pub(crate) fn new(ggx: &Ggx, rays: &[(f32, Curve)]) -> Self {
         let is_far = rays.iter().any(|(eta, _)| *eta < 1.0);
         if is_far {
-            Self::Far(Inner(rays.iter().map(|(eta, curve)| far(ggx, *eta, curve)).collect()))
+            Self::Far(Inner::new(ggx, rays))
         } else {
             Self::Near(near(ggx, rays))
         }
@@ -42,13 +71,9 @@ impl Losses {
     pub(crate) fn at(&self, place: &Place) -> Rgb {
         match self {
             Self::Near(profile) => profile.at(place.steep).max(Rgb::ZERO),
-            Self::Far(Inner(rays)) => by_channel(rays, |turns| match turns.as_slice() {
-                [profile] => profile.at(place.cos),
-                _ => {
-                    let turn = weights::<TURN>(place.steep.turn());
-                    turns.iter().zip(turn).map(|(profile, weight)| weight * profile.at(place.cos)).sum()
-                }
-            }),
+            Self::Far(inner) => {
+                inner.over_turns(|| weights::<TURN>(place.steep.turn()), |profile| profile.at(place.cos))
+            }
         }
     }
 
@@ -56,10 +81,7 @@ impl Losses {
     pub(crate) fn mean(&self, reflection: &Reflection) -> Rgb {
         match self {
             Self::Near(profile) => reflection.mean_of_profile(profile),
-            // The nodes of the turn lie evenly around the normal.
-            Self::Far(Inner(rays)) => by_channel(rays, |turns| {
-                turns.iter().map(|profile| profile.mean()).sum::<Rgb>() / turns.len() as f32
-            }),
+            Self::Far(inner) => inner.over_turns(|| inner.around, EdgeProfile::mean),
         }
     }
 }
@@ -74,7 +96,7 @@ fn by_channel<R>(rays: &[R], value: impl Fn(&R) -> Rgb) -> Rgb {
 
 fn far(ggx: &Ggx, eta: f32, curve: &Curve) -> Vec<EdgeProfile> {
     let ior = (1.0 / eta).max(1.0);
-    let index = weights::<INDEX>(index_axis(ior));
+    let index = weights::<{ INDEX[1] }>(index_axis(ior));
     let profile = |alpha: f32| EdgeProfile::new(alpha, ior, index, curve);
     if ggx.is_isotropic() {
         return vec![profile(ggx.mean_alpha())];
@@ -109,7 +131,7 @@ fn series_of(rays: &[(f32, Curve)], series: impl Fn(f32, &Curve) -> [Rgb; COS]) 
 
 /// The series for facets that are the same in all directions.
 fn even(alpha: f32, eta: f32, curve: &Curve) -> [Rgb; COS] {
-    let numbers: [f32; GLASS_SERIES] = at_index(&GLASS_NEAR, alpha, weights::<INDEX>(index_axis(eta)));
+    let numbers: [f32; GLASS_SERIES] = at_index(&GLASS_NEAR, alpha, weights::<{ INDEX[0] }>(index_axis(eta)));
     let (plain, curves) = numbers.split_at(COS);
     let folded = curve.fold::<COS>(curves);
     std::array::from_fn(|k| folded[k] + plain[k])

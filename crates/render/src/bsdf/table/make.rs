@@ -45,13 +45,18 @@ fn rows() -> Vec<(usize, Row)> {
         let (alpha, cos) = (width(w), steep(c, width(w)));
         add(LOWERS, LOWER * CURVE, k, Box::new(move || lower(cos, alpha)));
     }
-    for (k, (i, w)) in pairs(INDEX, GLASS_WIDTH).enumerate() {
-        let (ior, alpha) = (axis_index(nodes::<INDEX>()[i]), axis_width(nodes::<GLASS_WIDTH>()[w]));
+    let glass_width = |w: usize| axis_width(nodes::<GLASS_WIDTH>()[w]);
+    for (k, (i, w)) in pairs(INDEX[0], GLASS_WIDTH).enumerate() {
+        let (ior, alpha) = (axis_index(nodes::<{ INDEX[0] }>()[i]), glass_width(w));
         let ggx = Ggx::isotropic(alpha);
         for c in 0..COS {
             let wo = facing(steep(c, alpha), 0.0);
             add(GLASS, 1 + CURVE, k * COS + c, Box::new(move || glass::<CURVE>(&ggx, wo, ior)));
         }
+    }
+    for (k, (i, w)) in pairs(INDEX[1], GLASS_WIDTH).enumerate() {
+        let (ior, alpha) = (axis_index(nodes::<{ INDEX[1] }>()[i]), glass_width(w));
+        let ggx = Ggx::isotropic(alpha);
         for (l, (piece, e)) in pairs(PIECES, EDGE).enumerate() {
             let wo = facing(pieces(critical(ior))[piece].cos(nodes::<EDGE>()[e], alpha), 0.0);
             let row: Row = Box::new(move || glass::<CURVE>(&ggx, wo, 1.0 / ior));

@@ -1,7 +1,7 @@
 //! Tables of how much light lobes send back: integrals without a formula.
 //!
 //! They are stored as values at Chebyshev's nodes, and what a surface needs of them is put together once: series over the
-//! cosine, which are summed wherever a direction is asked for.
+//! cosine, which are summed wherever a direction is asked for. What depends on the roughness is read between levels of it.
 
 mod axis;
 mod chebyshev;

@@ -30,7 +30,7 @@ impl Spot {
         Self { x: grazing_axis(w.z.abs().min(1.0), width), turn }
     }
 
-    /// The square of the sine of the turn from the first tangent, where tangents are not alike.
+    /// See [`Ggx::turn_of`]; 0 where tangents are alike.
     pub(super) fn turn(&self) -> f32 {
         self.turn
     }
@@ -110,10 +110,18 @@ fn raised(along: Vec2, cos: f32) -> Vec3 {
 
 /// Nodes of means over the cosine, and over the turn.
 const HEIGHTS: usize = 32;
-const AROUND: usize = 8;
+pub(super) const AROUND: usize = 8;
 
 /// Nodes and weights over the height, worked out once.
 static HEIGHT_NODES: LazyLock<[(f32, f32); HEIGHTS]> = LazyLock::new(gauss_legendre);
+
+/// Directions evenly around the normal, from one tangent to the other.
+pub(super) fn around(ggx: &Ggx) -> [Vec2; AROUND] {
+    std::array::from_fn(|k| {
+        let angle = std::f32::consts::FRAC_PI_2 * (k as f32 + 0.5) / AROUND as f32;
+        Vec2::from_angle(angle).rotate(ggx.tangent())
+    })
+}
 
 /// The mean over the hemisphere, weighted by the cosine, of a function of the direction that depends on the turn as facets do.
 ///
@@ -129,8 +137,7 @@ pub(crate) fn hemisphere_mean<V: Value>(
     let mut sum = V::default();
     for turn in 0..count {
         let along = drawn_out.map_or(Vec2::X, |ggx| {
-            let angle = std::f32::consts::FRAC_PI_2 * (turn as f32 + 0.5) / AROUND as f32;
-            Vec2::from_angle(angle).rotate(ggx.tangent())
+            around(ggx)[turn]
         });
         let width = width(along.extend(0.0));
         let range = (1.0 / width).ln_1p();

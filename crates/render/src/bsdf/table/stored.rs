@@ -12,8 +12,8 @@ pub(crate) const FINE_WIDTH: usize = 17;
 pub(crate) const CURVE: usize = 12;
 /// Heights of light lower than the viewer; see [`super::reflection`].
 pub(crate) const LOWER: usize = 8;
-/// Nodes of the index of refraction, and of the roughness for glass.
-pub(crate) const INDEX: usize = 9;
+/// Nodes of the index of refraction, seen from the side of the smaller and of the larger one, and of the roughness for glass.
+pub(crate) const INDEX: [usize; 2] = [9, 12];
 pub(crate) const GLASS_WIDTH: usize = 12;
 /// Pieces of the cosine on the denser side of glass, and nodes of each; see [`super::edge`].
 pub(crate) const PIECES: usize = 3;
@@ -52,9 +52,9 @@ pub(crate) const ANGLES: Table = after(LOST, FINE_WIDTH * COS * CURVE);
 pub(crate) const LOWERS: Table = after(ANGLES, WIDTH * COS * LOWER * CURVE);
 /// `[INDEX][GLASS_WIDTH][COS][1 + CURVE]`: what facets of glass keep at first, without reflection and by a curve of reflectance, of
 /// light on the side of the smaller index.
-pub(crate) const GLASS: Table = after(LOWERS, INDEX * GLASS_WIDTH * COS * (1 + CURVE));
+pub(crate) const GLASS: Table = after(LOWERS, INDEX[0] * GLASS_WIDTH * COS * (1 + CURVE));
 /// `[INDEX][GLASS_WIDTH][PIECES][EDGE][1 + CURVE]`: the same on the side of the larger index, in pieces around total reflection.
-pub(crate) const INNER_GLASS: Table = after(GLASS, INDEX * GLASS_WIDTH * PIECES * EDGE * (1 + CURVE));
+pub(crate) const INNER_GLASS: Table = after(GLASS, INDEX[1] * GLASS_WIDTH * PIECES * EDGE * (1 + CURVE));
 /// `[WIDTH][STRENGTH][TURN][COS]`: the same share for highlights that are drawn out.
 pub(crate) const DRAWN_OUT: Table = after(INNER_GLASS, WIDTH * STRENGTH * TURN * COS);
 /// `[WIDTH][STRENGTH][TURN][COS][CURVE]`: [`ANGLES`] of them.
