@@ -86,7 +86,10 @@ mod tests {
         assert!((metal.reflectance(EDGE_COSINE) - at_edge).abs().max_element() < 1e-6);
         for k in 0..=100 {
             let reflectance = metal.reflectance(k as f32 / 100.0);
-            assert!(reflectance.min_element() >= 0.0 && reflectance.max_element() <= 1.0, "{k}: {reflectance}");
+            assert!(
+                reflectance.min_element() >= 0.0 && reflectance.max_element() <= 1.0,
+                "{k}: {reflectance}"
+            );
             assert!((reflectance.y - schlick.reflectance(k as f32 / 100.0).y).abs() < 1e-6, "{k}");
         }
     }
@@ -98,9 +101,11 @@ mod tests {
         let measured = Metal::new(Rgb::ONE, Rgb::ONE, Some(iron));
         let color = measured.reflectance(1.0);
         let plain = Metal::new(color, Rgb::ONE, None);
-        let tinted = Metal::new(color, measured.reflectance(EDGE_COSINE) / plain.reflectance(EDGE_COSINE), None);
+        let tinted =
+            Metal::new(color, measured.reflectance(EDGE_COSINE) / plain.reflectance(EDGE_COSINE), None);
         let worst = |metal: &Metal| {
-            let error = |k: i32| (metal.reflectance(0.01 * k as f32) - measured.reflectance(0.01 * k as f32)).abs();
+            let error =
+                |k: i32| (metal.reflectance(0.01 * k as f32) - measured.reflectance(0.01 * k as f32)).abs();
             (0..=100).map(|k| error(k).max_element()).fold(0.0, f32::max)
         };
         assert!(worst(&tinted) < 0.3 * worst(&plain), "{} for {}", worst(&tinted), worst(&plain));

@@ -26,7 +26,8 @@ impl Balance {
         let mean = even_mean(&passed).max(Rgb::splat(f32::MIN_POSITIVE));
         let mut factors = passed.map(|_| Rgb::ONE);
         for _ in 0..STEPS {
-            factors = sent(matte, &product(&passed, &factors)).map(|sent| mean / sent.max(Rgb::splat(f32::MIN_POSITIVE)));
+            factors = sent(matte, &product(&passed, &factors))
+                .map(|sent| mean / sent.max(Rgb::splat(f32::MIN_POSITIVE)));
             // What is sent in all is due, too: the scaling alone would swing around that.
             let light = product(&passed, &factors);
             let all = even_mean(&product(&light, &sent(matte, &light))) / (mean * mean);

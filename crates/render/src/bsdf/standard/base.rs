@@ -53,7 +53,8 @@ impl Base {
         Self {
             ggx,
             metalness: point.metalness,
-            metal: Metal::new(point.base_color, point.edge_color, point.conductor).with_film(film.0, film.1, film.2),
+            metal: Metal::new(point.base_color, point.edge_color, point.conductor)
+                .with_film(film.0, film.1, film.2),
             clear,
             passage,
             transmission: if passage == Passage::Closed { 0.0 } else { point.transmission },

@@ -81,7 +81,8 @@ impl CoverFill {
         let stopped = |curve| Stopped::new(reflection, |w| cover.passed(w), &curve);
         Self {
             up: stopped(Curve::new(|cos| base.reflected(cos))),
-            down: (base.passage == Passage::Sheet).then(|| Box::new(stopped(Curve::new(|cos| base.passed(cos))))),
+            down: (base.passage == Passage::Sheet)
+                .then(|| Box::new(stopped(Curve::new(|cos| base.passed(cos))))),
         }
     }
 
@@ -242,7 +243,9 @@ fn facet_fill(base: &Base, cover: &Cover, reflection: &Reflection, face: &Face) 
     let metal = Curve::new(|cos| base.metal.reflectance(cos));
     let mut color = Sides { up: base.metalness * reflection.between(&metal), down: Rgb::ZERO };
     match base.passage {
-        Passage::Closed | Passage::Bent => color.up += (base.clear_share() - base.glass_share()) * face.between,
+        Passage::Closed | Passage::Bent => {
+            color.up += (base.clear_share() - base.glass_share()) * face.between
+        }
         Passage::Straight => color.up += base.clear_share() * face.between,
         Passage::Sheet => {
             color.up += base.matte_share() * face.between;

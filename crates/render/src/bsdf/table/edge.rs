@@ -3,7 +3,9 @@
 //! The cosine is parted in three: away from grazing angles, and away from the edge to either side. In each piece an axis
 //! resolves its end as finely as the facets are wide.
 
-use super::axis::{axis_end, critical, end_axis};
+#[cfg(test)]
+use super::axis::axis_end;
+use super::axis::{critical, end_axis};
 use super::chebyshev::{sum, sums};
 use super::curve::Curve;
 use super::folded::{EDGE_SERIES, EDGES_SERIES, GLASS_FAR};
@@ -35,6 +37,7 @@ pub(super) fn pieces(critical: f32) -> [Piece; PIECES] {
 
 impl Piece {
     /// The cosine at a place on the axis.
+    #[cfg(test)]
     pub(super) fn cos(&self, x: f32, width: f32) -> f32 {
         (self.from + self.sign * axis_end(x, self.length, width)).clamp(0.0, 1.0)
     }
@@ -82,7 +85,8 @@ impl EdgeProfile {
     /// At a cosine.
     pub(super) fn at(&self, cos: f32) -> Rgb {
         let piece = usize::from(cos > 0.5 * self.critical) + usize::from(cos > self.critical);
-        sum(&self.series[piece], pieces(self.critical)[piece].place(cos, self.width)).clamp(Rgb::ZERO, Rgb::ONE)
+        sum(&self.series[piece], pieces(self.critical)[piece].place(cos, self.width))
+            .clamp(Rgb::ZERO, Rgb::ONE)
     }
 
     /// The mean over the hemisphere, weighted by the cosine.
@@ -98,7 +102,8 @@ impl EdgeProfile {
             });
             for (channel, mean) in mean.iter_mut().enumerate() {
                 let values = sums(&series.map(|coefficient| coefficient[channel]), &places);
-                *mean += values.iter().zip(area).map(|(value, area)| value.clamp(0.0, 1.0) * area).sum::<f32>();
+                *mean +=
+                    values.iter().zip(area).map(|(value, area)| value.clamp(0.0, 1.0) * area).sum::<f32>();
             }
         }
         Rgb::from_array(mean)

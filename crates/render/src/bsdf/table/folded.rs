@@ -6,7 +6,8 @@ use super::chebyshev::{nodes, series};
 use super::levels::Levels;
 use super::profile::{axis_direction, hemisphere_mean};
 use super::stored::{
-    ANGLES, COS, CURVE, EDGE, FINE_WIDTH, GLASS, GLASS_WIDTH, INDEX, INNER_GLASS, LOST, LOWER, LOWERS, PIECES, WIDTH,
+    ANGLES, COS, CURVE, EDGE, FINE_WIDTH, GLASS, GLASS_WIDTH, INDEX, INNER_GLASS, LOST, LOWER, LOWERS,
+    PIECES, WIDTH,
 };
 use crate::bsdf::quadrature::gauss_legendre;
 use heliostat_geometry::error_bound;
@@ -59,8 +60,12 @@ pub(super) const EDGES_SERIES: usize = PIECES * EDGE_SERIES;
 pub(super) static GLASS_FAR: LazyLock<Levels<{ INDEX[1] * EDGES_SERIES }>> = LazyLock::new(|| {
     let columns = |row: [f32; EDGE_SERIES]| columns::<{ 1 + CURVE }, EDGE, EDGE_SERIES>(&row);
     let pieces: Vec<[f32; EDGE_SERIES]> = INNER_GLASS.rows().map(columns).collect();
-    let rows: Vec<[f32; EDGES_SERIES]> =
-        pieces.as_chunks::<PIECES>().0.iter().filter_map(|pieces| pieces.as_flattened().first_chunk().copied()).collect();
+    let rows: Vec<[f32; EDGES_SERIES]> = pieces
+        .as_chunks::<PIECES>()
+        .0
+        .iter()
+        .filter_map(|pieces| pieces.as_flattened().first_chunk().copied())
+        .collect();
     Levels::new::<GLASS_WIDTH>(COARSE, &by_width(&rows))
 });
 

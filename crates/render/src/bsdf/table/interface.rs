@@ -60,11 +60,7 @@ impl Losses {
     /// the smaller index; where that side sees no light, all is reflected. With dispersion there is one of both per channel.
     pub(crate) fn new(ggx: &Ggx, rays: &[(f32, Curve)]) -> Self {
         let is_far = rays.iter().any(|(eta, _)| *eta < 1.0);
-        if is_far {
-            Self::Far(Inner::new(ggx, rays))
-        } else {
-            Self::Near(near(ggx, rays))
-        }
+        if is_far { Self::Far(Inner::new(ggx, rays)) } else { Self::Near(near(ggx, rays)) }
     }
 
     /// At a place.

@@ -11,8 +11,8 @@ use super::even::{even_axis, even_cos};
 use super::sheen::axis_cos;
 use super::stored::{
     ANGLES, COS, COUNT, CURVE, DRAWN_ANGLES, DRAWN_COS, DRAWN_CURVE, DRAWN_EDGE, DRAWN_GLASS, DRAWN_INDEX,
-    DRAWN_INNER, DRAWN_OUT, DRAWN_WIDTH, EDGE, FIBRES, FINE_WIDTH, GLASS, GLASS_WIDTH, INDEX, INNER_GLASS, LEAN, LOST,
-    LOWER, LOWERS, PIECES, SHEEN, SHEEN_LOWERS, STEEP, STRENGTH, TURN, Table, WIDTH,
+    DRAWN_INNER, DRAWN_OUT, DRAWN_WIDTH, EDGE, FIBRES, FINE_WIDTH, GLASS, GLASS_WIDTH, INDEX, INNER_GLASS,
+    LEAN, LOST, LOWER, LOWERS, PIECES, SHEEN, SHEEN_LOWERS, STEEP, STRENGTH, TURN, Table, WIDTH,
 };
 use crate::bsdf::diffuse::lean;
 use crate::bsdf::fresnel::refraction;
@@ -35,83 +35,117 @@ const CAPS: usize = 16;
 /// A row of a table: all numbers at one place on all axes but the last.
 type Row = Box<dyn Fn() -> Vec<f32> + Sync + Send>;
 
-/// All rows, each with its place among the numbers.
+/// Rows, each with its place among the numbers.
+#[derive(Default)]
+struct Rows(Vec<(usize, Row)>);
+
+/// All rows.
 fn rows() -> Vec<(usize, Row)> {
-    let mut rows: Vec<(usize, Row)> = Vec::new();
-    let mut add = |table: Table, len: usize, k: usize, row: Row| rows.push((table.start() + k * len, row));
-    let width = |w: usize| axis_width(nodes::<WIDTH>()[w]);
-    let steep = |c: usize, alpha: f32| grazing_cos(nodes::<COS>()[c], alpha);
-    for (k, (w, c)) in pairs(WIDTH, COS).enumerate() {
-        let (alpha, cos) = (width(w), steep(c, width(w)));
-        add(LOWERS, LOWER * CURVE, k, Box::new(move || lower(cos, alpha)));
+    let mut rows = Rows::default();
+    rows.add_facets();
+    rows.add_glass();
+    rows.add_drawn_out();
+    rows.add_drawn_glass();
+    rows.add_matter();
+    rows.0
+}
+
+fn steep(c: usize, alpha: f32) -> f32 {
+    grazing_cos(nodes::<COS>()[c], alpha)
+}
+
+impl Rows {
+    fn add(
+        &mut self,
+        table: Table,
+        len: usize,
+        k: usize,
+        row: impl Fn() -> Vec<f32> + Sync + Send + 'static,
+    ) {
+        self.0.push((table.start() + k * len, Box::new(row)));
     }
-    let glass_width = |w: usize| axis_width(nodes::<GLASS_WIDTH>()[w]);
-    for (k, (i, w)) in pairs(INDEX[0], GLASS_WIDTH).enumerate() {
-        let (ior, alpha) = (axis_index(nodes::<{ INDEX[0] }>()[i]), glass_width(w));
-        let ggx = Ggx::isotropic(alpha);
+
+    fn add_facets(&mut self) {
+        for (k, (w, c)) in pairs(FINE_WIDTH, COS).enumerate() {
+            let alpha = axis_width(nodes::<FINE_WIDTH>()[w]);
+            let cos = steep(c, alpha);
+            self.add(LOST, 1, k, move || vec![lost(&Ggx::isotropic(alpha), facing(cos, 0.0))]);
+            let cos = steep(c, curve_width(alpha));
+            self.add(ANGLES, CURVE, k, move || angles(&Ggx::isotropic(alpha), facing(cos, 0.0)));
+        }
+        for (k, (w, c)) in pairs(WIDTH, COS).enumerate() {
+            let alpha = axis_width(nodes::<WIDTH>()[w]);
+            let cos = steep(c, alpha);
+            self.add(LOWERS, LOWER * CURVE, k, move || lower(cos, alpha));
+        }
+    }
+
+    fn add_glass(&mut self) {
+        let width = |w: usize| axis_width(nodes::<GLASS_WIDTH>()[w]);
+        for (k, (i, w)) in pairs(INDEX[0], GLASS_WIDTH).enumerate() {
+            let (ior, alpha) = (axis_index(nodes::<{ INDEX[0] }>()[i]), width(w));
+            for c in 0..COS {
+                let (ggx, wo) = (Ggx::isotropic(alpha), facing(steep(c, alpha), 0.0));
+                self.add(GLASS, 1 + CURVE, k * COS + c, move || glass::<CURVE>(&ggx, wo, ior));
+            }
+        }
+        for (k, (i, w)) in pairs(INDEX[1], GLASS_WIDTH).enumerate() {
+            let (ior, alpha) = (axis_index(nodes::<{ INDEX[1] }>()[i]), width(w));
+            for (l, (piece, e)) in pairs(PIECES, EDGE).enumerate() {
+                let wo = facing(pieces(critical(ior))[piece].cos(nodes::<EDGE>()[e], alpha), 0.0);
+                let (ggx, place) = (Ggx::isotropic(alpha), k * PIECES * EDGE + l);
+                self.add(INNER_GLASS, 1 + CURVE, place, move || glass::<CURVE>(&ggx, wo, 1.0 / ior));
+            }
+        }
+    }
+
+    fn add_drawn_out(&mut self) {
+        for (k, (w, s)) in pairs(WIDTH, STRENGTH).enumerate() {
+            let ggx = Ggx::stretched_by(axis_width(nodes::<WIDTH>()[w]), nodes::<STRENGTH>()[s]);
+            for (l, (t, c)) in pairs(TURN, COS).enumerate() {
+                let along = ggx.along(nodes::<TURN>()[t]);
+                let width = ggx.width_along(along.extend(0.0));
+                let (place, angle) = (k * TURN * COS + l, along.to_angle());
+                let cos = steep(c, width);
+                self.add(DRAWN_OUT, 1, place, move || vec![lost(&ggx, facing(cos, angle))]);
+                let cos = steep(c, curve_width(width));
+                self.add(DRAWN_ANGLES, CURVE, place, move || angles(&ggx, facing(cos, angle)));
+            }
+        }
+    }
+
+    fn add_drawn_glass(&mut self) {
+        let widths = nodes::<DRAWN_WIDTH>().map(axis_width);
+        for (k, (i, ab)) in pairs(DRAWN_INDEX, DRAWN_WIDTH * DRAWN_WIDTH).enumerate() {
+            let ior = axis_index(nodes::<DRAWN_INDEX>()[i]);
+            let (along, across) = (widths[ab / DRAWN_WIDTH], widths[ab % DRAWN_WIDTH]);
+            for (c, x) in nodes::<DRAWN_COS>().into_iter().enumerate() {
+                let wo = facing(grazing_cos(x, along), 0.0);
+                let row = move || glass_more(along, across, wo, ior);
+                self.add(DRAWN_GLASS, 1 + DRAWN_CURVE, k * DRAWN_COS + c, row);
+            }
+            for (l, (piece, e)) in pairs(PIECES, DRAWN_EDGE).enumerate() {
+                let wo = facing(pieces(critical(ior))[piece].cos(nodes::<DRAWN_EDGE>()[e], along), 0.0);
+                let row = move || glass_more(along, across, wo, 1.0 / ior);
+                self.add(DRAWN_INNER, 1 + DRAWN_CURVE, k * PIECES * DRAWN_EDGE + l, row);
+            }
+        }
+    }
+
+    fn add_matter(&mut self) {
+        let fibres = |r: usize| Sheen::new(axis_roughness(nodes::<FIBRES>()[r]));
+        for (k, (r, c)) in pairs(FIBRES, STEEP).enumerate() {
+            let (sheen, cos) = (fibres(r), axis_cos(c as f32 / (STEEP - 1) as f32));
+            self.add(SHEEN, 1, k, move || vec![share(&sheen, cos)]);
+        }
+        for (k, (r, c)) in pairs(FIBRES, COS).enumerate() {
+            let (sheen, cos) = (fibres(r), axis_cos(nodes::<COS>()[c]));
+            self.add(SHEEN_LOWERS, LOWER, k, move || share_from_lower(&sheen, cos));
+        }
         for c in 0..COS {
-            let wo = facing(steep(c, alpha), 0.0);
-            add(GLASS, 1 + CURVE, k * COS + c, Box::new(move || glass::<CURVE>(&ggx, wo, ior)));
+            self.add(LEAN, COS, c, move || leaning(even_cos(c)));
         }
     }
-    for (k, (i, w)) in pairs(INDEX[1], GLASS_WIDTH).enumerate() {
-        let (ior, alpha) = (axis_index(nodes::<{ INDEX[1] }>()[i]), glass_width(w));
-        let ggx = Ggx::isotropic(alpha);
-        for (l, (piece, e)) in pairs(PIECES, EDGE).enumerate() {
-            let wo = facing(pieces(critical(ior))[piece].cos(nodes::<EDGE>()[e], alpha), 0.0);
-            let row: Row = Box::new(move || glass::<CURVE>(&ggx, wo, 1.0 / ior));
-            add(INNER_GLASS, 1 + CURVE, k * PIECES * EDGE + l, row);
-        }
-    }
-    let widths = nodes::<DRAWN_WIDTH>().map(axis_width);
-    for (k, (i, (a, b))) in pairs(DRAWN_INDEX, DRAWN_WIDTH * DRAWN_WIDTH)
-        .map(|(i, ab)| (i, (ab / DRAWN_WIDTH, ab % DRAWN_WIDTH)))
-        .enumerate()
-    {
-        let (ior, along, across) = (axis_index(nodes::<DRAWN_INDEX>()[i]), widths[a], widths[b]);
-        for (c, x) in nodes::<DRAWN_COS>().into_iter().enumerate() {
-            let wo = facing(grazing_cos(x, along), 0.0);
-            let row: Row = Box::new(move || glass_more(along, across, wo, ior));
-            add(DRAWN_GLASS, 1 + DRAWN_CURVE, k * DRAWN_COS + c, row);
-        }
-        for (l, (piece, e)) in pairs(PIECES, DRAWN_EDGE).enumerate() {
-            let wo = facing(pieces(critical(ior))[piece].cos(nodes::<DRAWN_EDGE>()[e], along), 0.0);
-            let row: Row = Box::new(move || glass_more(along, across, wo, 1.0 / ior));
-            add(DRAWN_INNER, 1 + DRAWN_CURVE, k * PIECES * DRAWN_EDGE + l, row);
-        }
-    }
-    for (k, (w, c)) in pairs(FINE_WIDTH, COS).enumerate() {
-        let alpha = axis_width(nodes::<FINE_WIDTH>()[w]);
-        let cos = steep(c, alpha);
-        add(LOST, 1, k, Box::new(move || vec![lost(&Ggx::isotropic(alpha), facing(cos, 0.0))]));
-        let cos = steep(c, curve_width(alpha));
-        add(ANGLES, CURVE, k, Box::new(move || angles(&Ggx::isotropic(alpha), facing(cos, 0.0))));
-    }
-    for (k, (w, s)) in pairs(WIDTH, STRENGTH).enumerate() {
-        for (l, (t, c)) in pairs(TURN, COS).enumerate() {
-            let ggx = Ggx::stretched_by(width(w), nodes::<STRENGTH>()[s]);
-            let along = ggx.along(nodes::<TURN>()[t]);
-            let width = ggx.width_along(along.extend(0.0));
-            let (place, angle) = (k * TURN * COS + l, along.to_angle());
-            let cos = steep(c, width);
-            add(DRAWN_OUT, 1, place, Box::new(move || vec![lost(&ggx, facing(cos, angle))]));
-            let cos = steep(c, curve_width(width));
-            add(DRAWN_ANGLES, CURVE, place, Box::new(move || angles(&ggx, facing(cos, angle))));
-        }
-    }
-    let fibres = |r: usize| Sheen::new(axis_roughness(nodes::<FIBRES>()[r]));
-    for (k, (r, c)) in pairs(FIBRES, STEEP).enumerate() {
-        let (sheen, cos) = (fibres(r), axis_cos(c as f32 / (STEEP - 1) as f32));
-        add(SHEEN, 1, k, Box::new(move || vec![share(&sheen, cos)]));
-    }
-    for (k, (r, c)) in pairs(FIBRES, COS).enumerate() {
-        let (sheen, cos) = (fibres(r), axis_cos(nodes::<COS>()[c]));
-        add(SHEEN_LOWERS, LOWER, k, Box::new(move || share_from_lower(&sheen, cos)));
-    }
-    for c in 0..COS {
-        add(LEAN, COS, c, Box::new(move || leaning(even_cos(c))));
-    }
-    rows
 }
 
 fn pairs(a: usize, b: usize) -> impl Iterator<Item = (usize, usize)> {
@@ -219,7 +253,8 @@ fn sheen(sheen: &Sheen, wo: Vec3, most: f32) -> impl Iterator<Item = (f32, f64)>
     square(PARTS).map(move |(u, weight)| {
         // Nodes crowd where the angle is grazing: the cosine goes as the fourth power.
         let cos = most * u.y.powi(4);
-        let value = f64::from(4.0 * most * u.y.powi(3) * sheen.single(wo, facing(cos, std::f32::consts::TAU * u.x)));
+        let value =
+            f64::from(4.0 * most * u.y.powi(3) * sheen.single(wo, facing(cos, std::f32::consts::TAU * u.x)));
         (cos, weight * 2.0 * PI * value)
     })
 }

@@ -13,9 +13,8 @@ use std::sync::LazyLock;
 /// How many levels of the roughness there are.
 const LEVELS: usize = 257;
 
-static MEANS: LazyLock<Levels<CURVE>> = LazyLock::new(|| {
-    Levels::new::<FINE_WIDTH>(LEVELS, &const { nodes::<FINE_WIDTH>() }.map(at_node))
-});
+static MEANS: LazyLock<Levels<CURVE>> =
+    LazyLock::new(|| Levels::new::<FINE_WIDTH>(LEVELS, &const { nodes::<FINE_WIDTH>() }.map(at_node)));
 
 /// The means over the hemisphere, weighted by the cosine, of the weights of a curve's nodes in what facets that are the same in all
 /// directions do not keep.

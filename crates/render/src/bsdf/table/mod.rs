@@ -25,5 +25,5 @@ pub(crate) use curve::Curve;
 pub(crate) use even::{Even, EvenProfile, even_cosines, even_mean, lean_means};
 pub(crate) use interface::Losses;
 pub(crate) use reflection::{CurveSeen, Place, Reflection};
-pub(crate) use stopped::Stopped;
 pub(crate) use sheen::{SheenAlbedo, SheenStopped};
+pub(crate) use stopped::Stopped;

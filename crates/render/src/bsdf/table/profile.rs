@@ -136,9 +136,7 @@ pub(crate) fn hemisphere_mean<V: Value>(
     let count = if drawn_out.is_some() { AROUND } else { 1 };
     let mut sum = V::default();
     for turn in 0..count {
-        let along = drawn_out.map_or(Vec2::X, |ggx| {
-            around(ggx)[turn]
-        });
+        let along = drawn_out.map_or(Vec2::X, |ggx| around(ggx)[turn]);
         let width = width(along.extend(0.0));
         let range = (1.0 / width).ln_1p();
         for &(x, weight) in HEIGHT_NODES.iter() {

@@ -3,7 +3,9 @@
 use super::axis::{curve_width, grazing_axis, width_axis};
 use super::chebyshev::{sums, weights};
 use super::curve::Curve;
-use super::folded::{ANGLE_SERIES, LOST_SERIES, MOST_WIDTH, STEEP_NODES, STEEPS, WIDE_WEIGHTS, wide_directions};
+use super::folded::{
+    ANGLE_SERIES, LOST_SERIES, MOST_WIDTH, STEEP_NODES, STEEPS, WIDE_WEIGHTS, wide_directions,
+};
 use super::means::curve_means;
 use super::profile::{Profile, Spot, hemisphere_mean};
 use super::stored::{COS, CURVE, DRAWN_ANGLES, DRAWN_OUT, STRENGTH, TURN, Table, WIDTH};
@@ -153,7 +155,9 @@ impl Reflection {
         }
         let (cosines, weights) = steep_nodes(ggx.mean_alpha());
         let nodes = cosines.into_iter().zip(weights);
-        nodes.map(|(cos, weight)| weight * value(Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos))).sum()
+        nodes
+            .map(|(cos, weight)| weight * value(Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos)))
+            .sum()
     }
 
     /// The same of a profile over the axis of grazing angles.
@@ -164,7 +168,11 @@ impl Reflection {
         let (places, weights) = steep_places(ggx.mean_alpha());
         Rgb::from_array([0, 1, 2].map(|channel| {
             let series = profile.series().map(|coefficient| coefficient[channel]);
-            sums(&series, &places).into_iter().zip(weights).map(|(value, weight)| weight * value.max(0.0)).sum()
+            sums(&series, &places)
+                .into_iter()
+                .zip(weights)
+                .map(|(value, weight)| weight * value.max(0.0))
+                .sum()
         }))
     }
 

@@ -91,7 +91,10 @@ impl SheenStopped {
             let cos = axis_cos(const { nodes::<COS>() }[k]);
             let here = passed(cos);
             let light = const { nodes::<LOWER>() }.iter().zip(&rows[k * LOWER..]);
-            light.map(|(lower, weight)| weight * (here - passed(cos * (1.0 - lower))).max(0.0)).sum::<f32>().max(0.0)
+            light
+                .map(|(lower, weight)| weight * (here - passed(cos * (1.0 - lower))).max(0.0))
+                .sum::<f32>()
+                .max(0.0)
         };
         let series = series(&std::array::from_fn(stopped));
         let mean = MEANS.iter().zip(&series).map(|(mean, coefficient)| mean * coefficient).sum::<f32>();

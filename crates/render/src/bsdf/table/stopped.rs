@@ -25,7 +25,10 @@ impl Stopped {
     /// `passed` is what the cover lets pass along a direction, and `curve` what facets do with light over its angle to them.
     pub(crate) fn new(reflection: &Reflection, passed: impl Fn(Vec3) -> f32, curve: &Curve) -> Self {
         let Some(ggx) = reflection.ggx() else {
-            return Self { profile: Profile::from_series([Rgb::ZERO; COS]), mean: Rgb::splat(f32::MIN_POSITIVE) };
+            return Self {
+                profile: Profile::from_series([Rgb::ZERO; COS]),
+                mean: Rgb::splat(f32::MIN_POSITIVE),
+            };
         };
         let profile = if ggx.is_isotropic() {
             let passed = Passed::new(Vec2::X, &passed);

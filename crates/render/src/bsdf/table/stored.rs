@@ -13,11 +13,11 @@ pub(crate) const CURVE: usize = 12;
 /// Heights of light lower than the viewer; see [`super::reflection`].
 pub(crate) const LOWER: usize = 8;
 /// Nodes of the index of refraction, seen from the side of the smaller and of the larger one, and of the roughness for glass.
-pub(crate) const INDEX: [usize; 2] = [9, 12];
-pub(crate) const GLASS_WIDTH: usize = 12;
+pub(crate) const INDEX: [usize; 2] = [9, 11];
+pub(crate) const GLASS_WIDTH: usize = 10;
 /// Pieces of the cosine on the denser side of glass, and nodes of each; see [`super::edge`].
 pub(crate) const PIECES: usize = 3;
-pub(crate) const EDGE: usize = 12;
+pub(crate) const EDGE: usize = 16;
 /// Nodes of the strength by which highlights are drawn out, and of the turn from one tangent to the other.
 pub(crate) const STRENGTH: usize = 7;
 pub(crate) const TURN: usize = 5;
@@ -63,7 +63,8 @@ pub(crate) const DRAWN_ANGLES: Table = after(DRAWN_OUT, WIDTH * STRENGTH * TURN 
 /// more than in [`GLASS`] of the width along it.
 pub(crate) const DRAWN_GLASS: Table = after(DRAWN_ANGLES, DRAWN_PLANES * DRAWN_COS * (1 + DRAWN_CURVE));
 /// `[DRAWN_INDEX][DRAWN_WIDTH][DRAWN_WIDTH][PIECES][DRAWN_EDGE][1 + DRAWN_CURVE]`: the same for [`INNER_GLASS`].
-pub(crate) const DRAWN_INNER: Table = after(DRAWN_GLASS, DRAWN_PLANES * PIECES * DRAWN_EDGE * (1 + DRAWN_CURVE));
+pub(crate) const DRAWN_INNER: Table =
+    after(DRAWN_GLASS, DRAWN_PLANES * PIECES * DRAWN_EDGE * (1 + DRAWN_CURVE));
 const DRAWN_PLANES: usize = DRAWN_INDEX * DRAWN_WIDTH * DRAWN_WIDTH;
 /// `[FIBRES][STEEP]`: share of the light that fibres send back.
 pub(crate) const SHEEN: Table = after(DRAWN_INNER, FIBRES * STEEP);

@@ -138,7 +138,8 @@ fn zz_print_all() {
                 let b = StandardBsdf::new(&rough(*change, roughness), *o, Vec3::Z);
                 for cos in COSINES {
                     let e = 1e3 * (furnace(&b, viewer(cos)) - Rgb::ONE);
-                    let e = if e.max_element() > -e.min_element() { e.max_element() } else { e.min_element() };
+                    let e =
+                        if e.max_element() > -e.min_element() { e.max_element() } else { e.min_element() };
                     s += &format!(" {e:7.2}");
                 }
                 s += "\n";

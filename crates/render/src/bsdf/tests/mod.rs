@@ -84,6 +84,7 @@ const LOSSLESS: &[(&str, Change)] = &[
     ("thin glass", |p| (p.transmission, p.thin_walled) = (1.0, true)),
     ("thin glass, half", |p| (p.transmission, p.thin_walled) = (0.5, true)),
     ("coat over metal", |p| (p.coat, p.metalness) = (1.0, 1.0)),
+    ("coat over metal, anisotropic", |p| (p.coat, p.metalness, p.anisotropy) = (1.0, 1.0, 0.7)),
     ("coat over plastic", |p| p.coat = 1.0),
     ("rough coat over metal", |p| (p.coat, p.coat_roughness, p.metalness) = (1.0, 0.5, 1.0)),
     ("rough coat over plastic", |p| (p.coat, p.coat_roughness) = (1.0, 0.5)),
