@@ -92,17 +92,6 @@ impl Ggx {
         Vec2::new((1.0 - sin2).max(0.0).sqrt(), sin2.sqrt()).rotate(self.tangent)
     }
 
-    /// Width of the isotropic distribution that looks about the same from `w`: at grazing angles only slopes towards the
-    /// viewer count, at normal ones those along both tangents.
-    pub(crate) fn alike(&self, w: Vec3) -> f32 {
-        if self.is_isotropic() {
-            return self.alpha.x;
-        }
-        let along = self.width_along(w).powi(2);
-        let both = 0.5 * self.alpha.length_squared();
-        (along + (both - along) * w.z * w.z).sqrt()
-    }
-
     /// Whether all tangents are alike.
     pub(crate) fn is_isotropic(&self) -> bool {
         self.alpha.x == self.alpha.y

@@ -66,16 +66,20 @@ fn at_node((low, high, between): (&[f32], &[f32], f32), node: usize, steps: &[f3
     sums
 }
 
-/// The same in one direction at facets drawn out, by those that look about the same from there.
+/// The same in one direction at facets drawn out: by even ones as wide as these are along it and, the less grazing it is, by
+/// those as wide as these are across.
 fn drawn_out(ggx: &Ggx, passed: impl Fn(Vec3) -> f32, w: Vec3) -> [f32; CURVE] {
-    let alpha = ggx.alike(w);
-    let (low, high, between) = LOWER_NODES.around(alpha);
     let flat = w.truncate().normalize_or(ggx.tangent());
     let steps = Passed::new(flat, &passed).steps(w.z);
+    let (along, across) = (ggx.width_along(w), ggx.width_along(flat.perp().extend(0.0)));
+    let share = 0.5 * w.z;
     let mut sums = [0.0; CURVE];
-    for (node, weight) in weights::<COS>(grazing_axis(w.z, alpha)).into_iter().enumerate() {
-        let part = at_node((low.as_slice(), high.as_slice(), between), node, &steps);
-        sums.iter_mut().zip(part).for_each(|(sum, part)| *sum += weight * part);
+    for (alpha, share) in [(along, 1.0 - share), (across, share)] {
+        let (low, high, between) = LOWER_NODES.around(alpha);
+        for (node, weight) in weights::<COS>(grazing_axis(w.z, alpha)).into_iter().enumerate() {
+            let part = at_node((low.as_slice(), high.as_slice(), between), node, &steps);
+            sums.iter_mut().zip(part).for_each(|(sum, part)| *sum += share * weight * part);
+        }
     }
     sums
 }
