@@ -20,7 +20,11 @@ const LEVELS: usize = 129;
 
 /// The share at a level of the roughness and an angle.
 static SHARES: LazyLock<Box<[[f32; STEEP]]>> = LazyLock::new(|| {
-    (0..LEVELS).map(|level| SHEEN.at::<FIBRES, STEEP>(level as f32 / (LEVELS - 1) as f32)).collect()
+    let level = |level: usize| {
+        let row: [f32; STEEP] = SHEEN.at::<FIBRES, STEEP>(level as f32 / (LEVELS - 1) as f32);
+        row.map(|share| share.max(0.0))
+    };
+    (0..LEVELS).map(level).collect()
 });
 
 /// From a cosine to the axis on which fibres are known: they hide each other with about its fifth root.

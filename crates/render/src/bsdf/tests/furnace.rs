@@ -72,7 +72,7 @@ fn survey(change: Change, is_outside: bool) -> [(f32, f32); 2] {
 /// Thousandths of the light that a lobe may make, and lose, where it is not 1: what a deep run finds, a little rounded.
 ///
 /// What is more than 1 is known for what it is: films whose colours change faster over the angle than curves tell, highlights
-/// drawn out of a nearly smooth surface, drawn-out glass whose facets lean askew, and nearly smooth glass from inside, at the most
+/// drawn out of a nearly smooth surface or under a cover, drawn-out glass whose facets lean askew, and nearly smooth glass from inside, at the most
 /// grazing angles.
 fn bound(name: &str, is_outside: bool) -> [f32; 2] {
     match (name, is_outside) {
@@ -91,7 +91,7 @@ fn bound(name: &str, is_outside: bool) -> [f32; 2] {
         ("glass, dispersed" | "glass, film", true) => [1.0, 1.0],
         ("plastic, anisotropic", _) => [2.7, 0.9],
         ("plastic, film", _) => [0.9, 1.6],
-        ("coat over metal, anisotropic", _) => [12.0, 1.0],
+        ("coat over metal, anisotropic", _) => [9.5, 3.0],
         ("metal" | "plastic, ior 0" | "thin glass" | "sheen over plastic" | "sheen over metal", _) => {
             [1.4, 0.9]
         }
