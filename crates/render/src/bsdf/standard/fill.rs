@@ -244,7 +244,7 @@ fn facet_fill(base: &Base, cover: &Cover, reflection: &Reflection, face: &Face) 
     let mut color = Sides { up: base.metalness * reflection.between(&metal), down: Rgb::ZERO };
     match base.passage {
         Passage::Closed | Passage::Bent => {
-            color.up += (base.clear_share() - base.glass_share()) * face.between
+            color.up += (base.clear_share() - base.glass_share()) * face.between;
         }
         Passage::Straight => color.up += base.clear_share() * face.between,
         Passage::Sheet => {

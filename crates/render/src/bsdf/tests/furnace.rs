@@ -117,32 +117,3 @@ fn bsdf_furnace_is_white() {
         .collect();
     assert!(failures.is_empty(), "{failures:#?}");
 }
-
-#[test]
-fn zz_print_all() {
-    let Ok(filter) = std::env::var("FURN") else { return };
-    let cases: Vec<_> = LOSSLESS
-        .iter()
-        .flat_map(|case| [(case, true), (case, false)])
-        .filter(|((name, _), o)| (*o || name.starts_with("glass")) && name.contains(&filter))
-        .collect();
-    let lines: Vec<String> = cases
-        .par_iter()
-        .map(|((name, change), o)| {
-            let mut s = format!("{name}, {o}\n");
-            for roughness in ROUGHNESS {
-                s += &format!("  {roughness:.2}:");
-                let b = StandardBsdf::new(&rough(*change, roughness), *o, Vec3::Z);
-                for cos in COSINES {
-                    let e = 1e3 * (furnace(&b, viewer(cos)) - Rgb::ONE);
-                    let e =
-                        if e.max_element() > -e.min_element() { e.max_element() } else { e.min_element() };
-                    s += &format!(" {e:7.2}");
-                }
-                s += "\n";
-            }
-            s
-        })
-        .collect();
-    println!("{}", lines.concat());
-}
