@@ -10,7 +10,7 @@ pub(crate) const WIDTH: usize = 9;
 pub(crate) const FINE_WIDTH: usize = 17;
 /// Nodes of a curve of reflectance over the cosine.
 pub(crate) const CURVE: usize = 12;
-/// Heights of light lower than the viewer; see [`super::reflection`].
+/// Heights of light lower than the viewer; see [`super::stopped`].
 pub(crate) const LOWER: usize = 8;
 /// Nodes of the index of refraction, seen from the side of the smaller and of the larger one, and of the roughness for glass.
 pub(crate) const INDEX: [usize; 2] = [9, 11];
