@@ -9,6 +9,7 @@
 //! base_color = 0.8                # albedo of the matte part, colour of metal, tint of refracted light
 //! diffuse_roughness = 0           # of the matte part
 //! metalness = 0                   # share of metal
+//! edge_color = 1                  # tint of metal at about 82 degrees
 //! roughness = 0.3                 # of reflection and refraction: 0 is a mirror
 //! specular = 1                    # weight of the reflection of what is no metal
 //! specular_color = 1              # its tint
@@ -61,7 +62,9 @@ pub struct StandardTable {
     pub diffuse_roughness: Option<Texturable<Fraction>>,
     /// Share of metal; 0 if left out.
     pub metalness: Option<Texturable<Fraction>>,
-    /// A measured metal by its name or its numbers, in place of `base_color`: aluminium, brass, chromium, copper, gold, iron,
+    /// Tint of metal at an angle of about 82 degrees, as OpenPBR has it; 1 if left out.
+    pub edge_color: Option<Texturable<Color>>,
+    /// A measured metal by its name or its numbers, in place of `base_color` and `edge_color`: aluminium, brass, chromium, copper, gold, iron,
     /// mercury, platinum, silver or titanium.
     pub conductor: Option<Placed<Metal>>,
     /// Roughness of reflection and refraction, 0 is a mirror; 0.3 if left out.
@@ -213,6 +216,7 @@ impl StandardTable {
     fn fill_colors(&self, standard: &mut Standard, textures: &mut impl FindTexture) -> Result<(), Fault> {
         let colors = [
             (&mut standard.base_color, &self.base_color),
+            (&mut standard.edge_color, &self.edge_color),
             (&mut standard.specular_color, &self.specular_color),
             (&mut standard.diffuse_transmission_color, &self.diffuse_transmission_color),
             (&mut standard.subsurface_color, &self.subsurface_color),

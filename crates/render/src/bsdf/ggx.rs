@@ -53,6 +53,12 @@ impl Ggx {
         Self { alpha: Vec2::new(along, alpha), tangent: Vec2::X }
     }
 
+    /// Of these widths along x and y.
+    #[cfg(test)]
+    pub(crate) fn of_widths(alpha: Vec2) -> Self {
+        Self { alpha, tangent: Vec2::X }
+    }
+
     /// By what strength [`Self::stretched_by`] gives the larger width.
     pub(crate) fn strength(&self) -> f32 {
         let room = 1.0 - self.alpha.y;
@@ -74,27 +80,16 @@ impl Ggx {
         (self.turned(w).truncate().normalize_or(Vec2::X) * self.alpha).length()
     }
 
-    /// Square of the sine of the angle between the first tangent and the plane of the normal and `w`.
+    /// How far the width in the plane of the normal and `w` is from the smaller to the larger one, where these differ.
     pub(crate) fn turn_of(&self, w: Vec3) -> f32 {
-        let flat = self.turned(w).truncate();
-        let length = flat.length_squared();
-        if length > 0.0 { flat.y * flat.y / length } else { 0.0 }
+        ((self.width_along(w) - self.alpha.y) / (self.alpha.x - self.alpha.y)).clamp(0.0, 1.0)
     }
 
     /// The direction in the tangent plane whose [`Self::turn_of`] is `turn`.
     pub(crate) fn along(&self, turn: f32) -> Vec2 {
-        Vec2::new((1.0 - turn).max(0.0).sqrt(), turn.sqrt()).rotate(self.tangent)
-    }
-
-    /// Width of the isotropic distribution that looks about the same from `w`: at grazing angles only slopes towards the
-    /// viewer count, at normal ones those along both tangents.
-    pub(crate) fn alike(&self, w: Vec3) -> f32 {
-        if self.is_isotropic() {
-            return self.alpha.x;
-        }
-        let along = self.width_along(w).powi(2);
-        let both = 0.5 * self.alpha.length_squared();
-        (along + (both - along) * w.z * w.z).sqrt()
+        let width = self.alpha.y + turn * (self.alpha.x - self.alpha.y);
+        let sin2 = (1.0 - turn) * (self.alpha.x + width) / (self.alpha.x + self.alpha.y);
+        Vec2::new((1.0 - sin2).max(0.0).sqrt(), sin2.sqrt()).rotate(self.tangent)
     }
 
     /// Whether all tangents are alike.

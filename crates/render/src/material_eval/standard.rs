@@ -17,6 +17,7 @@ impl MaterialEval<'_> {
             base_color: unit_color(vertex_color.unwrap_or(Rgb::ONE) * self.color(&standard.base_color)),
             diffuse_roughness: share(&standard.diffuse_roughness),
             metalness: share(&standard.metalness),
+            edge_color: color(&standard.edge_color),
             conductor: standard.conductor,
             roughness: share(&standard.roughness),
             specular: share(&standard.specular),

@@ -59,7 +59,9 @@ pub struct Standard {
     pub diffuse_roughness: FloatInput,
     /// Share of metal, in `[0, 1]`.
     pub metalness: FloatInput,
-    /// What the metal is, in place of `base_color`.
+    /// Tint of metal at an angle of about 82 degrees, in `[0, 1]`: 1 is Schlick's curve.
+    pub edge_color: ColorInput,
+    /// What the metal is, in place of `base_color` and `edge_color`.
     pub conductor: Option<Conductor>,
     /// Roughness of reflection and refraction, in `[0, 1]`: 0 is a mirror.
     pub roughness: FloatInput,
@@ -122,6 +124,7 @@ impl Default for Standard {
             base_color: ColorInput::constant(Rgb::splat(0.8)),
             diffuse_roughness: none,
             metalness: none,
+            edge_color: white,
             conductor: None,
             roughness: FloatInput::constant(0.3),
             specular: all,
@@ -154,9 +157,10 @@ impl Default for Standard {
 
 impl Standard {
     /// The colours that textures may vary, by the names that scene files give them.
-    pub fn colors(&self) -> [(&'static str, &ColorInput); 6] {
+    pub fn colors(&self) -> [(&'static str, &ColorInput); 7] {
         [
             ("base_color", &self.base_color),
+            ("edge_color", &self.edge_color),
             ("specular_color", &self.specular_color),
             ("diffuse_transmission_color", &self.diffuse_transmission_color),
             ("subsurface_color", &self.subsurface_color),
@@ -187,6 +191,7 @@ impl Standard {
     pub(super) fn each_texture(&mut self, visit: &mut impl FnMut(&mut TextureId)) {
         let colors = [
             &mut self.base_color,
+            &mut self.edge_color,
             &mut self.specular_color,
             &mut self.diffuse_transmission_color,
             &mut self.subsurface_color,

@@ -34,6 +34,8 @@ pub(super) struct Base {
     pub(super) transmission: f32,
     /// What is left of light that crosses once.
     pub(super) tint: Rgb,
+    /// Whether matte matter has no boundary over it: inside of a body it begins where light sees it.
+    pub(super) is_bare: bool,
 }
 
 impl Base {
@@ -45,15 +47,20 @@ impl Base {
         let film = (point.film, point.film_ior, point.film_thickness);
         let clear = Clear::new(point, is_outside);
         let passage = passage(point, ggx.as_ref(), clear.eta().x);
+        // From inside only total reflection at grazing angles would tell such facets from a smooth boundary.
+        let is_smooth = passage == Passage::Straight && !is_outside;
+        let (ggx, passage) = if is_smooth { (None, Passage::Bent) } else { (ggx, passage) };
         Self {
             ggx,
             metalness: point.metalness,
-            metal: Metal::new(point.base_color, point.conductor).with_film(film.0, film.1, film.2),
+            metal: Metal::new(point.base_color, point.edge_color, point.conductor)
+                .with_film(film.0, film.1, film.2),
             clear,
             passage,
             transmission: if passage == Passage::Closed { 0.0 } else { point.transmission },
             // In and out again give the colour.
             tint: if point.thin_walled { point.base_color } else { point.base_color.map(f32::sqrt) },
+            is_bare: !is_outside,
         }
     }
 
@@ -63,8 +70,8 @@ impl Base {
         if self.metalness > 0.0 {
             sum += self.metalness * self.metal.reflectance(cos);
         }
-        if self.metalness < 1.0 {
-            sum += (1.0 - self.metalness) * self.clear_reflected(cos);
+        if self.clear_share() > 0.0 {
+            sum += self.clear_share() * self.clear_reflected(cos);
         }
         sum
     }
@@ -103,7 +110,7 @@ impl Base {
         };
         let metal =
             if self.metalness > 0.0 { self.metalness * self.metal.reflectance(cos) } else { Rgb::ZERO };
-        (metal + (1.0 - self.metalness) * clear, self.glass_share() * sides.1)
+        (metal + self.clear_share() * clear, self.glass_share() * sides.1)
     }
 
     /// What a thin wall of this matter reflects and lets through.
@@ -114,6 +121,11 @@ impl Base {
     /// Share of the surface that is seen through.
     pub(super) fn glass_share(&self) -> f32 {
         (1.0 - self.metalness) * self.transmission
+    }
+
+    /// Share of the surface that has a boundary of clear matter.
+    pub(super) fn clear_share(&self) -> f32 {
+        if self.is_bare { self.glass_share() } else { 1.0 - self.metalness }
     }
 
     /// Share of the surface that is matte below its boundary.

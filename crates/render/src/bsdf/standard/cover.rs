@@ -5,7 +5,7 @@ use crate::bsdf::ggx::Ggx;
 use crate::bsdf::reflect::Facet;
 use crate::bsdf::sheen::Sheen;
 use crate::bsdf::standard::StandardPoint;
-use crate::bsdf::table::{Curve, CurveSeen, Reflection, SheenAlbedo};
+use crate::bsdf::table::{Curve, CurveSeen, Reflection, SheenAlbedo, SheenStopped};
 use glam::{Vec2, Vec3};
 use heliostat_geometry::OrthonormalFrame;
 use heliostat_scene::Rgb;
@@ -16,19 +16,24 @@ use std::f32::consts::FRAC_1_PI;
 pub(super) struct Cover {
     pub(super) coat: Option<Coat>,
     pub(super) fibres: Option<Fibres>,
+    /// What the coat stops of light of white fibres.
+    stopped: Option<SheenStopped>,
 }
 
 impl Cover {
     /// Nothing over the base: what lies there is outside, and not seen from inside.
-    pub(super) const NONE: Self = Self { coat: None, fibres: None };
+    pub(super) const NONE: Self = Self { coat: None, fibres: None, stopped: None };
 
     /// `coat_normal` is that of the coat in the frame of the surface.
     pub(super) fn new(point: &StandardPoint, coat_normal: Vec3) -> Self {
         let has_sheen = point.sheen_color.max_element() > 0.0;
-        Self {
-            coat: (point.coat > 0.0).then(|| Coat::new(point, coat_normal)),
-            fibres: has_sheen.then(|| Fibres::new(point)),
-        }
+        let coat = (point.coat > 0.0).then(|| Coat::new(point, coat_normal));
+        let stopped = coat.as_ref().filter(|_| has_sheen).map(|coat| {
+            SheenStopped::new(point.sheen_roughness, |cos| {
+                1.0 - coat.kept(Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos))
+            })
+        });
+        Self { coat, fibres: has_sheen.then(|| Fibres::new(point)), stopped }
     }
 
     pub(super) fn is_none(&self) -> bool {
@@ -43,6 +48,27 @@ impl Cover {
     /// The same for the coat alone.
     pub(super) fn coat_passed(&self, w: Vec3) -> f32 {
         self.coat.as_ref().map_or(1.0, |coat| 1.0 - coat.kept(w))
+    }
+}
+
+impl Cover {
+    /// Share of the light that fibres send to a viewer through the coat, and what the coat stops of it.
+    pub(super) fn fibres_albedo(&self, wo: Vec3) -> Rgb {
+        let Some(fibres) = &self.fibres else { return Rgb::ZERO };
+        self.coat_passed(wo) * fibres.albedo(wo)
+    }
+
+    /// The value of fibres under the coat, with what fibres and coat throw at each other until it leaves.
+    pub(super) fn fibres_value(&self, wo: Vec3, wi: Vec3) -> Rgb {
+        let Some(fibres) = &self.fibres else { return Rgb::ZERO };
+        let once = self.coat_passed(wo).min(self.coat_passed(wi)) * fibres.value(wo, wi);
+        match &self.stopped {
+            None => once,
+            Some(stopped) => {
+                let again = stopped.at(wo.z) * stopped.at(wi.z) / stopped.mean();
+                once + fibres.color * (again * wi.z * FRAC_1_PI)
+            }
+        }
     }
 }
 

@@ -14,7 +14,7 @@ use super::cover::Cover;
 use super::glass_fill::GlassFill;
 use crate::bsdf::diffuse::Matte;
 use crate::bsdf::standard::StandardPoint;
-use crate::bsdf::table::{Curve, CurveSeen, Place, Profile, Reflection};
+use crate::bsdf::table::{Curve, CurveSeen, Place, Reflection, Stopped};
 use glam::Vec3;
 use heliostat_geometry::error_bound;
 use heliostat_scene::Rgb;
@@ -35,8 +35,9 @@ pub(super) struct Fill {
     matte: Option<MatteFill>,
     glass: Option<GlassFill>,
     cover: Option<CoverFill>,
-    /// Boundary over the matte part.
+    /// Boundary of clear matter, and whether there is none over the matte part.
     face: Face,
+    is_bare: bool,
 }
 
 /// Light that facets throw at each other: its color on either side, and the mean of its profile.
@@ -67,26 +68,35 @@ impl MatteFill {
     }
 }
 
-/// Light of facets that the cover throws back at them: what it stops of white light, the colour that is left of it, and the
-/// mean of its profile.
+/// Light of facets that the cover throws back at them, on either side of the surface.
 #[derive(Clone, Debug)]
 struct CoverFill {
-    stopped: Profile<f32>,
-    color: CurveSeen,
-    mean: Rgb,
+    up: Stopped,
+    /// For thin walls.
+    down: Option<Box<Stopped>>,
 }
 
 impl CoverFill {
     fn new(base: &Base, cover: &Cover, reflection: &Reflection) -> Self {
-        let color = reflection.seen(&Curve::new(|cos| base.reflected(cos)));
-        let stopped = reflection.stopped(|w| cover.passed(w));
-        let fill = Self { stopped, color, mean: Rgb::ZERO };
-        let mean = reflection.mean_around(|w| fill.profile(&reflection.place(w)));
-        Self { mean: mean.max(Rgb::splat(f32::MIN_POSITIVE)), ..fill }
+        let stopped = |curve| Stopped::new(reflection, |w| cover.passed(w), &curve);
+        Self {
+            up: stopped(Curve::new(|cos| base.reflected(cos))),
+            down: (base.passage == Passage::Sheet)
+                .then(|| Box::new(stopped(Curve::new(|cos| base.passed(cos))))),
+        }
     }
 
-    fn profile(&self, place: &Place) -> Rgb {
-        self.stopped.at(place.steep).max(0.0) * self.color.at(place)
+    fn profile(&self, place: &Place) -> Sides {
+        Sides { up: self.up.at(place), down: self.down.as_ref().map_or(Rgb::ZERO, |down| down.at(place)) }
+    }
+
+    /// The distribution function times pi, for the profiles of both directions.
+    fn times_pi(&self, to: &Sides, from: &Sides, is_up: bool) -> Rgb {
+        match (&self.down, is_up) {
+            (_, true) => to.up * from.up / self.up.mean(),
+            (Some(down), false) => to.down * from.down / down.mean(),
+            (None, false) => Rgb::ZERO,
+        }
     }
 }
 
@@ -116,7 +126,7 @@ impl Face {
 impl Face {
     /// The mean of what gets through, where that is known.
     fn passed_mean(&self, reflection: &Reflection) -> Option<Rgb> {
-        if self.is_dark { Some(Rgb::ONE) } else { reflection.passed_mean(&self.bare, self.between) }
+        reflection.passed_mean(&self.bare, self.between)
     }
 }
 
@@ -128,7 +138,7 @@ pub(super) struct Profiles {
     pub(super) cover: f32,
     facets: f32,
     matte: Rgb,
-    stopped: Rgb,
+    stopped: Sides,
 }
 
 impl Fill {
@@ -151,6 +161,7 @@ impl Fill {
             cover: (base.ggx.is_some() && !cover.is_none()).then(|| CoverFill::new(base, cover, &reflection)),
             reflection,
             face,
+            is_bare: base.is_bare,
         }
     }
 
@@ -161,8 +172,12 @@ impl Fill {
             place,
             cover: cover.passed(Vec3::new(w.x, w.y, w.z.abs())),
             facets: if self.facets.is_some() { self.reflection.lost(&place) } else { 0.0 },
-            matte: self.matte.as_ref().map_or(Rgb::ZERO, |_| self.face.passed(&self.reflection, &place)),
-            stopped: self.cover.as_ref().map_or(Rgb::ZERO, |cover| cover.profile(&place)),
+            matte: match &self.matte {
+                None => Rgb::ZERO,
+                Some(_) if self.is_bare => Rgb::ONE,
+                Some(_) => self.face.passed(&self.reflection, &place),
+            },
+            stopped: self.cover.as_ref().map_or(Sides::default(), |cover| cover.profile(&place)),
         }
     }
 
@@ -181,8 +196,8 @@ impl Fill {
         if let Some(glass) = &self.glass {
             sum += to.cover * glass.times_pi(glass.lost(&to.place), &from.place, is_up);
         }
-        if let (Some(CoverFill { mean, .. }), true) = (&self.cover, is_up) {
-            sum += to.stopped * from.stopped / *mean;
+        if let Some(cover) = &self.cover {
+            sum += cover.times_pi(&to.stopped, &from.stopped, is_up);
         }
         sum * (wi.z.abs() * FRAC_1_PI)
     }
@@ -204,7 +219,7 @@ impl Fill {
             sum.up += up;
             sum.down += down;
         }
-        Sides { up: to.cover * sum.up + to.stopped, down: to.cover * sum.down }
+        Sides { up: to.cover * sum.up + to.stopped.up, down: to.cover * sum.down + to.stopped.down }
     }
 
     /// Share of the light along `wo` that walks below the surface, and about its colour when it comes out.
@@ -228,8 +243,10 @@ fn facet_fill(base: &Base, cover: &Cover, reflection: &Reflection, face: &Face) 
     let metal = Curve::new(|cos| base.metal.reflectance(cos));
     let mut color = Sides { up: base.metalness * reflection.between(&metal), down: Rgb::ZERO };
     match base.passage {
-        Passage::Closed | Passage::Bent => color.up += base.matte_share() * face.between,
-        Passage::Straight => color.up += (1.0 - base.metalness) * face.between,
+        Passage::Closed | Passage::Bent => {
+            color.up += (base.clear_share() - base.glass_share()) * face.between;
+        }
+        Passage::Straight => color.up += base.clear_share() * face.between,
         Passage::Sheet => {
             color.up += base.matte_share() * face.between;
             let mean = Curve::new(|cos| base.sheet_sides(cos).0).cosine_mean();
@@ -239,7 +256,7 @@ fn facet_fill(base: &Base, cover: &Cover, reflection: &Reflection, face: &Face) 
         }
     }
     let covered =
-        || reflection.mean_around(|w| Rgb::splat(cover.passed(w) * reflection.lost(&reflection.place(w))));
+        || reflection.mean_of_losses(|w| Rgb::splat(cover.passed(w) * reflection.lost(&reflection.place(w))));
     let mean = if cover.is_none() { reflection.lost_mean() } else { covered().x };
     FacetFill { color, mean: mean.max(f32::MIN_POSITIVE) }
 }
@@ -255,9 +272,13 @@ fn matte_fill(
         return None;
     }
     let through = point.diffuse_transmission;
-    let passed = |w: Vec3| cover.passed(w) * face.passed(reflection, &reflection.place(w));
-    let mean = face.passed_mean(reflection).filter(|_| cover.is_none());
-    let mean = mean.unwrap_or_else(|| reflection.mean_around(passed));
+    let is_dark = face.is_dark || base.is_bare;
+    let passed = |w: Vec3| {
+        let face = if is_dark { Rgb::ONE } else { face.passed(reflection, &reflection.place(w)) };
+        cover.passed(w) * face
+    };
+    let mean = if is_dark { Some(Rgb::ONE) } else { face.passed_mean(reflection) };
+    let mean = mean.filter(|_| cover.is_none()).unwrap_or_else(|| reflection.mean_around(passed));
     // Light that walks leaves less to what is matte; where none does, it has the colour of both.
     let (color, under) = if point.walks {
         ((1.0 - point.subsurface) * point.base_color, point.subsurface)
@@ -265,7 +286,7 @@ fn matte_fill(
         (point.base_color.lerp(point.subsurface_color, point.subsurface), 0.0)
     };
     let up = Matte { color: (1.0 - through) * color, roughness: point.diffuse_roughness };
-    let is_bare = face.is_dark && cover.is_none();
+    let is_bare = is_dark && cover.is_none();
     let along = |cos: f32| passed(Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos));
     let balance = (up.roughness > 0.0 && !is_bare).then(|| Box::new(Balance::new(&up, along)));
     // Under a mirror there is no light to scale.

@@ -4,7 +4,7 @@ use super::base::Base;
 use super::fill::Sides;
 use crate::bsdf::fresnel::refraction;
 use crate::bsdf::ggx::Ggx;
-use crate::bsdf::table::{Curve, Place, Profile, Reflection, hemisphere_mean, interface};
+use crate::bsdf::table::{Curve, Losses, Place, Reflection};
 use heliostat_scene::Rgb;
 
 /// What is lost at one scattering, shared between both sides.
@@ -31,7 +31,7 @@ pub(super) struct GlassFill {
 /// One side of the boundary.
 #[derive(Clone, Debug)]
 struct Side {
-    loss: Profile<Rgb>,
+    loss: Losses,
     /// Square of the index of refraction over that of the viewer's side.
     squeeze: Rgb,
     /// Of loss and square.
@@ -40,14 +40,13 @@ struct Side {
 
 impl Side {
     fn new(ggx: &Ggx, reflection: &Reflection, rays: &[(f32, Curve)], squeeze: Rgb) -> Self {
-        let loss = interface(ggx, rays);
-        let side = Self { loss, squeeze, mean: Rgb::ZERO };
-        let mean = hemisphere_mean(Some(ggx), |w| ggx.width_along(w), |w| side.loss(&reflection.place(w)));
-        Self { mean: mean.max(Rgb::splat(f32::MIN_POSITIVE)), ..side }
+        let loss = Losses::new(ggx, rays);
+        let mean = squeeze * loss.mean(reflection);
+        Self { mean: mean.max(Rgb::splat(f32::MIN_POSITIVE)), squeeze, loss }
     }
 
     fn loss(&self, place: &Place) -> Rgb {
-        self.squeeze * self.loss.at(place.steep).max(Rgb::ZERO)
+        self.squeeze * self.loss.at(place)
     }
 }
 

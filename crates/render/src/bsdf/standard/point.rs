@@ -10,6 +10,8 @@ pub(crate) struct StandardPoint {
     pub(crate) base_color: Rgb,
     pub(crate) diffuse_roughness: f32,
     pub(crate) metalness: f32,
+    /// Tint of metal at about 82 degrees.
+    pub(crate) edge_color: Rgb,
     pub(crate) conductor: Option<Conductor>,
     pub(crate) roughness: f32,
     pub(crate) specular: f32,

@@ -106,7 +106,7 @@ impl<'b> View<'b> {
     pub(crate) fn albedo(&self) -> Rgb {
         let (StandardBsdf { cover, base, fill }, wo) = (self.bsdf, self.wo);
         let coat = cover.coat.as_ref().map_or(0.0, |coat| coat.kept(wo));
-        let fibres = cover.fibres.map_or(Rgb::ZERO, |fibres| cover.coat_passed(wo) * fibres.albedo(wo));
+        let fibres = cover.fibres_albedo(wo);
         let Sides { up, down } = fill.albedo(&self.profiles);
         let facets = self.passed * (base.reflected(wo.z) + base.passed(wo.z));
         let (under, color) = fill.under(cover, self.wo);
@@ -138,8 +138,8 @@ impl<'b> View<'b> {
             value += Rgb::splat(coat.value(wo, wi));
             pdf += self.share(Way::Coat) * coat.pdf(wo, wi);
         }
-        if let Some(fibres) = &cover.fibres {
-            value += cover.coat_passed(wo).min(cover.coat_passed(wi)) * fibres.value(wo, wi);
+        if cover.fibres.is_some() {
+            value += cover.fibres_value(wo, wi);
             pdf += self.share(Way::Fibres) * warp::hemisphere_pdf(wi);
         }
         if let (Some(ggx), Some(facet)) = (&bsdf.base.ggx, Facet::between(wo, wi)) {

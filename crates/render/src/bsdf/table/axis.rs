@@ -4,23 +4,31 @@
 use heliostat_geometry::error_bound;
 
 /// From a cosine to an axis that resolves angles as grazing as `alpha` is wide: there facets shadow each other most.
-///
-/// The root of `alpha s^2 = cos (1 - s)`, over that of a cosine of 1.
 pub(crate) fn grazing_axis(cos: f32, alpha: f32) -> f32 {
-    let root = |cos: f32| {
-        let sum = cos + (cos * (cos + 4.0 * alpha)).sqrt();
-        if sum > 0.0 { 2.0 * cos / sum } else { 1.0 }
-    };
-    if cos > 0.0 { (root(cos) / root(1.0)).min(1.0) } else { 0.0 }
+    end_axis(cos, 1.0, alpha)
 }
 
 /// The inverse of [`grazing_axis`], for a width above 0.
 pub(crate) fn grazing_cos(x: f32, alpha: f32) -> f32 {
-    if x >= 1.0 {
-        return 1.0;
-    }
-    let s = x * 2.0 / (1.0 + (1.0 + 4.0 * alpha).sqrt());
-    (alpha * s * s / (1.0 - s)).min(1.0)
+    if x >= 1.0 { 1.0 } else { axis_end(x, 1.0, alpha).min(1.0) }
+}
+
+/// From a distance in `[0, length]` to an axis that resolves what happens as near to 0 as `width`.
+///
+/// The root of `width s^2 = distance (1 - s)`, over that of the length.
+pub(crate) fn end_axis(distance: f32, length: f32, width: f32) -> f32 {
+    if distance > 0.0 { (end_root(distance, width) / end_root(length, width)).min(1.0) } else { 0.0 }
+}
+
+/// The inverse of [`end_axis`], for a width above 0.
+pub(crate) fn axis_end(x: f32, length: f32, width: f32) -> f32 {
+    let s = x * end_root(length, width);
+    width * s * s / (1.0 - s)
+}
+
+fn end_root(distance: f32, width: f32) -> f32 {
+    let sum = distance + (distance * (distance + 4.0 * width)).sqrt();
+    if sum > 0.0 { 2.0 * distance / sum } else { 1.0 }
 }
 
 /// The width for which [`grazing_axis`] resolves a curve of reflectance seen through facets: curves change over tenths.
@@ -53,6 +61,7 @@ pub(crate) fn axis_index(x: f32) -> f32 {
     1.0 / (1.0 - (x * critical(LARGEST)).powi(2)).sqrt()
 }
 
-fn critical(ior: f32) -> f32 {
+/// The cosine from which on light gets out of the denser side of a boundary.
+pub(crate) fn critical(ior: f32) -> f32 {
     (1.0 - 1.0 / (ior * ior)).max(0.0).sqrt()
 }

@@ -63,6 +63,17 @@ pub(crate) fn sum<V: Value>(series: &[V], x: f32) -> V {
     series[0] + next * (0.5 * twice) - after
 }
 
+/// The sums of a series at many places at once.
+pub(crate) fn sums<const N: usize>(series: &[f32], x: &[f32; N]) -> [f32; N] {
+    let (mut next, mut after) = ([0.0; N], [0.0; N]);
+    for coefficient in series[1..].iter().rev() {
+        for ((next, after), x) in next.iter_mut().zip(&mut after).zip(x) {
+            (*next, *after) = (*coefficient + *next * (4.0 * x - 2.0) - *after, *next);
+        }
+    }
+    std::array::from_fn(|k| series[0] + next[k] * (2.0 * x[k] - 1.0) - after[k])
+}
+
 /// Weights of values at the nodes that add up to the mean over a hemisphere, weighted by the cosine, of what depends on that
 /// cosine: `w_k = int_0^1 2 x l_k(x) dx`.
 pub(crate) const fn cosine_weights<const N: usize>() -> [f32; N] {
@@ -151,6 +162,7 @@ mod tests {
             let by_weights: f32 = weights::<8>(x).iter().zip(values).map(|(w, v)| w * v).sum();
             assert!((sum(&series, x) - polynomial(x)).abs() < 4e-6, "{x}");
             assert!((by_weights - polynomial(x)).abs() < 4e-6, "{x}");
+            assert!((sums(&series, &[0.5, x])[1] - polynomial(x)).abs() < 4e-6, "{x}");
         }
         assert_eq!(weights::<8>(nodes::<8>()[3])[3], 1.0);
     }

@@ -1,7 +1,7 @@
 //! Reflectances over the angle.
 
 use super::chebyshev::{cosine_weights, nodes, weights};
-use super::stored::{CURVE, LEAN};
+use super::stored::CURVE;
 use heliostat_scene::Rgb;
 
 /// A reflectance at Chebyshev's nodes of the cosine.
@@ -17,6 +17,18 @@ impl Curve {
     /// 1 at one node, 0 at the others.
     pub(super) fn unit(node: usize) -> Self {
         Self(std::array::from_fn(|k| if k == node { Rgb::ONE } else { Rgb::ZERO }))
+    }
+
+    /// Series, one for each node, added up by the values there.
+    pub(super) fn fold<const N: usize>(&self, series: &[f32]) -> [Rgb; N] {
+        let mut channels = [[0.0; N]; 3];
+        for (value, series) in self.0.iter().zip(series.as_chunks::<N>().0) {
+            for (sums, value) in channels.iter_mut().zip(value.to_array()) {
+                sums.iter_mut().zip(series).for_each(|(sum, coefficient)| *sum += value * coefficient);
+            }
+        }
+        let [r, g, b] = channels;
+        std::array::from_fn(|k| Rgb::new(r[k], g[k], b[k]))
     }
 
     /// Whether it is 0 at every angle.
@@ -38,12 +50,4 @@ impl Curve {
 /// Weights by which a curve's nodes give its value at a cosine.
 pub(crate) fn curve_weights(cos: f32) -> [f32; CURVE] {
     weights(cos.clamp(0.0, 1.0))
-}
-
-/// The mean over the hemisphere, weighted by the cosine, of a curve times how light leans
-/// ([`lean`](crate::bsdf::diffuse::lean)), for a viewer at a node of [`EvenProfile`](super::EvenProfile).
-pub(crate) fn lean_means(node: usize, curve: &Curve) -> Rgb {
-    let mut weights = [0.0; CURVE];
-    LEAN.add(node * CURVE, 1.0, &mut weights);
-    curve.sum(&weights)
 }

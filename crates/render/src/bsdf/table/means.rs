@@ -2,26 +2,24 @@
 //!
 //! Where textures vary the roughness, a surface is put together at every hit: these means would take most of the time.
 
-use super::axis::width_axis;
-use super::chebyshev::{nodes, weights};
+use super::chebyshev::nodes;
 use super::curve::Curve;
+use super::levels::Levels;
 use super::reflection::Reflection;
 use super::stored::{CURVE, FINE_WIDTH};
 use crate::bsdf::ggx::Ggx;
 use std::sync::LazyLock;
 
-/// At the nodes of the roughness.
-static MEANS: LazyLock<[[f32; CURVE]; FINE_WIDTH]> =
-    LazyLock::new(|| const { nodes::<FINE_WIDTH>() }.map(at_node));
+/// How many levels of the roughness there are.
+const LEVELS: usize = 257;
+
+static MEANS: LazyLock<Levels<CURVE>> =
+    LazyLock::new(|| Levels::new::<FINE_WIDTH>(LEVELS, &const { nodes::<FINE_WIDTH>() }.map(at_node)));
 
 /// The means over the hemisphere, weighted by the cosine, of the weights of a curve's nodes in what facets that are the same in all
 /// directions do not keep.
 pub(super) fn curve_means(alpha: f32) -> [f32; CURVE] {
-    let mut sums = [0.0; CURVE];
-    for (means, weight) in MEANS.iter().zip(weights::<FINE_WIDTH>(width_axis(alpha))) {
-        sums.iter_mut().zip(means).for_each(|(sum, mean)| *sum += weight * mean);
-    }
-    sums
+    MEANS.at(alpha)
 }
 
 fn at_node(x: f32) -> [f32; CURVE] {

@@ -1,6 +1,6 @@
 //! What depends on one direction at a rough surface.
 
-use super::axis::{curve_width, grazing_axis, grazing_cos};
+use super::axis::{grazing_axis, grazing_cos};
 use super::chebyshev::{Value, nodes, series, sum};
 use super::stored::{COS, TURN};
 use crate::bsdf::ggx::Ggx;
@@ -29,6 +29,11 @@ impl Spot {
         let turn = ggx.filter(|ggx| !ggx.is_isotropic()).map_or(0.0, |ggx| ggx.turn_of(w));
         Self { x: grazing_axis(w.z.abs().min(1.0), width), turn }
     }
+
+    /// See [`Ggx::turn_of`]; 0 where tangents are alike.
+    pub(super) fn turn(&self) -> f32 {
+        self.turn
+    }
 }
 
 impl<V: Value> Profile<V> {
@@ -47,11 +52,25 @@ impl<V: Value> Profile<V> {
         if drawn_out.is_none() {
             return Self { mean: row(0), turned: None };
         }
-        let rows: [[V; COS]; TURN] = std::array::from_fn(row);
+        Self::from_turns(&std::array::from_fn(row))
+    }
+
+    /// Of series over the cosine at the nodes of the turn.
+    pub(super) fn from_turns(rows: &[[V; COS]; TURN]) -> Self {
         let columns: [[V; TURN]; COS] =
             std::array::from_fn(|c| series(&std::array::from_fn(|turn| rows[turn][c])));
         let turned = std::array::from_fn(|j| std::array::from_fn(|c| columns[c][j + 1]));
         Self { mean: columns.map(|column| column[0]), turned: Some(Box::new(turned)) }
+    }
+
+    /// Of a series over the cosine, the same for all turns.
+    pub(super) fn from_series(series: [V; COS]) -> Self {
+        Self { mean: series, turned: None }
+    }
+
+    /// The series over the cosine, the same for all turns.
+    pub(super) fn series(&self) -> &[V; COS] {
+        &self.mean
     }
 
     /// The value at a direction.
@@ -74,30 +93,14 @@ impl<V: Value> Profile<V> {
     }
 }
 
-/// A function of the cosine that changes over tenths.
-#[derive(Clone, Debug)]
-pub(crate) struct EvenProfile<V>([V; COS]);
-
-impl<V: Value> EvenProfile<V> {
-    /// Of a function of the cosine and the number of its node.
-    pub(crate) fn new(value: impl Fn(f32, usize) -> V) -> Self {
-        Self(series(&std::array::from_fn(|node| value(even_cos(node), node))))
-    }
-
-    /// The value at a cosine.
-    pub(crate) fn at(&self, cos: f32) -> V {
-        sum(&self.0, grazing_axis(cos.min(1.0), curve_width(0.0)))
-    }
-}
-
-/// The cosine at a node of [`EvenProfile`].
-pub(super) fn even_cos(node: usize) -> f32 {
-    grazing_cos(const { nodes::<COS>() }[node], curve_width(0.0))
-}
-
 /// The direction above `along` at a node of the axis of grazing angles.
 fn node_direction(along: Vec2, node: usize, width: f32) -> Vec3 {
     raised(along, grazing_cos(const { nodes::<COS>() }[node], width))
+}
+
+/// The direction above the x-axis at a place on the axis of grazing angles.
+pub(super) fn axis_direction(x: f32, width: f32) -> Vec3 {
+    raised(Vec2::X, grazing_cos(x, width))
 }
 
 /// The unit direction above `along` at a cosine.
@@ -107,10 +110,18 @@ fn raised(along: Vec2, cos: f32) -> Vec3 {
 
 /// Nodes of means over the cosine, and over the turn.
 const HEIGHTS: usize = 32;
-const AROUND: usize = 8;
+pub(super) const AROUND: usize = 8;
 
 /// Nodes and weights over the height, worked out once.
 static HEIGHT_NODES: LazyLock<[(f32, f32); HEIGHTS]> = LazyLock::new(gauss_legendre);
+
+/// Directions evenly around the normal, from one tangent to the other.
+pub(super) fn around(ggx: &Ggx) -> [Vec2; AROUND] {
+    std::array::from_fn(|k| {
+        let angle = std::f32::consts::FRAC_PI_2 * (k as f32 + 0.5) / AROUND as f32;
+        Vec2::from_angle(angle).rotate(ggx.tangent())
+    })
+}
 
 /// The mean over the hemisphere, weighted by the cosine, of a function of the direction that depends on the turn as facets do.
 ///
@@ -125,10 +136,7 @@ pub(crate) fn hemisphere_mean<V: Value>(
     let count = if drawn_out.is_some() { AROUND } else { 1 };
     let mut sum = V::default();
     for turn in 0..count {
-        let along = drawn_out.map_or(Vec2::X, |ggx| {
-            let angle = std::f32::consts::FRAC_PI_2 * (turn as f32 + 0.5) / AROUND as f32;
-            Vec2::from_angle(angle).rotate(ggx.tangent())
-        });
+        let along = drawn_out.map_or(Vec2::X, |ggx| around(ggx)[turn]);
         let width = width(along.extend(0.0));
         let range = (1.0 / width).ln_1p();
         for &(x, weight) in HEIGHT_NODES.iter() {

@@ -1,11 +1,14 @@
 //! How much light rough boundaries reflect, once, for any curve of reflectance over the angle.
 
 use super::axis::{curve_width, grazing_axis, width_axis};
-use super::chebyshev::{nodes, weights};
+use super::chebyshev::{sums, weights};
 use super::curve::Curve;
+use super::folded::{
+    ANGLE_SERIES, LOST_SERIES, MOST_WIDTH, STEEP_NODES, STEEPS, WIDE_WEIGHTS, wide_directions,
+};
 use super::means::curve_means;
 use super::profile::{Profile, Spot, hemisphere_mean};
-use super::stored::{ANGLES, COS, CURVE, DRAWN_OUT, FINE_WIDTH, LOST, LOWER, LOWERS, STRENGTH, TURN, WIDTH};
+use super::stored::{COS, CURVE, DRAWN_ANGLES, DRAWN_OUT, STRENGTH, TURN, Table, WIDTH};
 use crate::bsdf::ggx::Ggx;
 use glam::Vec3;
 use heliostat_scene::Rgb;
@@ -29,6 +32,8 @@ pub(crate) struct Place {
     /// For what facets lose, and for curves of reflectance.
     pub(crate) steep: Spot,
     pub(crate) wide: Spot,
+    /// Cosine of the angle to the normal, on either side.
+    pub(super) cos: f32,
 }
 
 impl Reflection {
@@ -39,14 +44,19 @@ impl Reflection {
             return Self { ggx, lost: none, lost_mean: f32::MIN_POSITIVE };
         };
         let lost = if ggx.is_isotropic() {
-            let row: [f32; COS] = LOST.at::<WIDTH, COS>(width_axis(ggx.mean_alpha()));
-            Profile::new(Some(&ggx), |_| ggx.mean_alpha(), |_, [_, c]| row[c])
+            Profile::from_series(LOST_SERIES.at(ggx.mean_alpha()))
         } else {
-            let rows = drawn_out(&ggx);
+            let rows = drawn_out::<{ TURN * COS }>(&ggx, DRAWN_OUT);
             Profile::new(Some(&ggx), |w| ggx.width_along(w), |_, [turn, c]| rows[turn * COS + c])
         };
         let mut reflection = Self { ggx: Some(ggx), lost, lost_mean: 0.0 };
-        let mean = hemisphere_mean(Some(&ggx), |w| ggx.width_along(w), |w| reflection.lost_at(w));
+        let mean = if ggx.is_isotropic() {
+            let (places, weights) = steep_places(ggx.mean_alpha());
+            let lost = sums(reflection.lost.series(), &places);
+            lost.into_iter().zip(weights).map(|(lost, weight)| weight * lost.clamp(0.0, 1.0)).sum()
+        } else {
+            hemisphere_mean(Some(&ggx), |w| ggx.width_along(w), |w| reflection.lost_at(w))
+        };
         reflection.lost_mean = mean.max(f32::MIN_POSITIVE);
         reflection
     }
@@ -55,7 +65,11 @@ impl Reflection {
     #[inline]
     pub(crate) fn place(&self, w: Vec3) -> Place {
         let ggx = self.ggx.as_ref();
-        Place { steep: Spot::new(ggx, self.steep_width(w), w), wide: Spot::new(ggx, self.wide_width(w), w) }
+        Place {
+            steep: Spot::new(ggx, self.steep_width(w), w),
+            wide: Spot::new(ggx, self.wide_width(w), w),
+            cos: w.z.abs().min(1.0),
+        }
     }
 
     fn steep_width(&self, w: Vec3) -> f32 {
@@ -92,49 +106,11 @@ impl Reflection {
             ));
         };
         if ggx.is_isotropic() {
-            // The nodes of the table are those of the series.
-            let rows: [f32; COS * CURVE] = ANGLES.at::<FINE_WIDTH, _>(width_axis(ggx.mean_alpha()));
-            let width = self.wide_width(Vec3::X);
-            let value = |_, [_, c]: [usize; 2]| curve.sum(&rows[c * CURVE..][..CURVE]);
-            return CurveSeen(Profile::new(Some(ggx), |_| width, value));
+            return CurveSeen(Profile::from_series(curve.fold(&ANGLE_SERIES.at(ggx.mean_alpha()))));
         }
-        let mut plane = [[Rgb::ZERO; COS]; FINE_WIDTH];
-        for (k, weights) in ANGLES.rows::<CURVE>().enumerate() {
-            plane[k / COS][k % COS] = curve.sum(&weights);
-        }
-        CurveSeen(Profile::new(
-            Some(ggx),
-            |w| self.wide_width(w),
-            |w, _| plane_at(&plane, ggx.alike(w), curve_width(ggx.alike(w)), w),
-        ))
-    }
-
-    /// Of white light, what facets send to a viewer from more grazing directions and what a cover stops of it, because it lets
-    /// the smaller of what passes along either direction: by the direction of the viewer.
-    pub(crate) fn stopped(&self, passed: impl Fn(Vec3) -> f32) -> Profile<f32> {
-        let Some(ggx) = &self.ggx else { return Profile::new(None, |_| 1.0, |_, _| 0.0) };
-        let mut plane = [[[0.0; LOWER]; COS]; WIDTH];
-        for (k, weights) in LOWERS.rows::<LOWER>().enumerate() {
-            plane[k / COS][k % COS] = weights;
-        }
-        let stopped = |w: Vec3, _| {
-            let alpha = ggx.alike(w);
-            let here = passed(w);
-            let flat = w.truncate().normalize_or(ggx.tangent());
-            let steps = const { nodes::<LOWER>() }.map(|lower| {
-                let cos = w.z * (1.0 - lower);
-                (here - passed(((1.0 - cos * cos).sqrt() * flat).extend(cos))).max(0.0)
-            });
-            let mut sum = 0.0;
-            for (row, at_width) in plane.iter().zip(weights::<WIDTH>(width_axis(alpha))) {
-                for (node, at_cos) in row.iter().zip(weights::<COS>(grazing_axis(w.z, alpha))) {
-                    let light: f32 = node.iter().zip(steps).map(|(a, b)| a * b).sum();
-                    sum += at_width * at_cos * light;
-                }
-            }
-            sum.max(0.0)
-        };
-        Profile::new(Some(ggx), |w| ggx.width_along(w), stopped)
+        let rows = drawn_out::<{ TURN * COS * CURVE }>(ggx, DRAWN_ANGLES);
+        let value = |_, [turn, c]: [usize; 2]| curve.sum(&rows[(turn * COS + c) * CURVE..][..CURVE]);
+        CurveSeen(Profile::new(Some(ggx), |w| self.wide_width(w), value))
     }
 
     /// What is left, per unit of light that facets keep at first, of the light that they throw at each other until it leaves.
@@ -160,14 +136,56 @@ impl Reflection {
         Some((Rgb::ONE - reflected).clamp(Rgb::ZERO, Rgb::ONE))
     }
 
-    /// The mean over the hemisphere, weighted by the cosine, of what depends on a direction as the facets do, and on covers.
+    /// The mean over the hemisphere, weighted by the cosine, of what depends on a direction as covers and curves of reflectance
+    /// do.
     pub(crate) fn mean_around(&self, value: impl Fn(Vec3) -> Rgb) -> Rgb {
-        hemisphere_mean(self.ggx.as_ref(), |w| self.steep_width(w).min(MOST_WIDTH), value)
+        if let Some(ggx) = self.drawn_out() {
+            return hemisphere_mean(Some(ggx), |w| self.steep_width(w).min(MOST_WIDTH), value);
+        }
+        let alpha = self.ggx.map_or(0.0, |ggx| ggx.mean_alpha());
+        let nodes = wide_directions(alpha).into_iter().zip(WIDE_WEIGHTS.at(alpha));
+        nodes.map(|(w, weight)| weight * value(w)).sum()
+    }
+
+    /// The same of what depends on a direction as the losses of facets do.
+    pub(crate) fn mean_of_losses(&self, value: impl Fn(Vec3) -> Rgb) -> Rgb {
+        let Some(ggx) = &self.ggx else { return Rgb::ZERO };
+        if self.drawn_out().is_some() {
+            return hemisphere_mean(Some(ggx), |w| ggx.width_along(w), value);
+        }
+        let (cosines, weights) = steep_nodes(ggx.mean_alpha());
+        let nodes = cosines.into_iter().zip(weights);
+        nodes
+            .map(|(cos, weight)| weight * value(Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos)))
+            .sum()
+    }
+
+    /// The same of a profile over the axis of grazing angles.
+    pub(crate) fn mean_of_profile(&self, profile: &Profile<Rgb>) -> Rgb {
+        let Some(ggx) = self.ggx.as_ref().filter(|ggx| ggx.is_isotropic()) else {
+            return self.mean_of_losses(|w| profile.at(self.place(w).steep).max(Rgb::ZERO));
+        };
+        let (places, weights) = steep_places(ggx.mean_alpha());
+        Rgb::from_array([0, 1, 2].map(|channel| {
+            let series = profile.series().map(|coefficient| coefficient[channel]);
+            sums(&series, &places)
+                .into_iter()
+                .zip(weights)
+                .map(|(value, weight)| weight * value.max(0.0))
+                .sum()
+        }))
+    }
+
+    /// The facets, where they are not the same in all directions.
+    fn drawn_out(&self) -> Option<&Ggx> {
+        self.ggx.as_ref().filter(|ggx| !ggx.is_isotropic())
+    }
+
+    /// The facets; `None` for a mirror.
+    pub(super) fn ggx(&self) -> Option<&Ggx> {
+        self.ggx.as_ref()
     }
 }
-
-/// The largest width for means of what depends on covers too: these change over tenths.
-const MOST_WIDTH: f32 = 0.1;
 
 impl CurveSeen {
     /// The mean of what need not be a reflectance.
@@ -182,23 +200,25 @@ impl CurveSeen {
     }
 }
 
-/// The value between nodes of the width and of the cosine, on the axis for `width`.
-pub(super) fn plane_at<const W: usize>(plane: &[[Rgb; COS]; W], alpha: f32, width: f32, w: Vec3) -> Rgb {
-    let at_cos = weights::<COS>(grazing_axis(w.z.abs().min(1.0), width));
-    let mut sum = Rgb::ZERO;
-    for (row, at_width) in plane.iter().zip(weights::<W>(width_axis(alpha))) {
-        let value: Rgb = row.iter().zip(at_cos).map(|(&value, weight)| value * weight).sum();
-        sum += at_width * value;
-    }
-    sum
+/// Cosines and weights of means over the hemisphere, for facets that are the same in all directions.
+fn steep_nodes(alpha: f32) -> ([f32; STEEPS], [f32; STEEPS]) {
+    let numbers = STEEP_NODES.at(alpha);
+    let part = |start: usize| std::array::from_fn(|k| numbers[start + k]);
+    (part(0), part(STEEPS))
 }
 
-/// Values of [`DRAWN_OUT`] for these widths, by turn and cosine.
-fn drawn_out(ggx: &Ggx) -> [f32; TURN * COS] {
-    let mut sums = [0.0; TURN * COS];
+/// The same with places on the axis of grazing angles.
+fn steep_places(alpha: f32) -> ([f32; STEEPS], [f32; STEEPS]) {
+    let (cosines, weights) = steep_nodes(alpha);
+    (cosines.map(|cos| grazing_axis(cos, alpha)), weights)
+}
+
+/// Numbers for these widths, by turn and cosine.
+fn drawn_out<const N: usize>(ggx: &Ggx, table: Table) -> [f32; N] {
+    let mut sums = [0.0; N];
     for (w, at_width) in weights::<WIDTH>(width_axis(ggx.alpha().y)).into_iter().enumerate() {
         for (s, at_strength) in weights::<STRENGTH>(ggx.strength()).into_iter().enumerate() {
-            DRAWN_OUT.add((w * STRENGTH + s) * TURN * COS, at_width * at_strength, &mut sums);
+            table.add((w * STRENGTH + s) * N, at_width * at_strength, &mut sums);
         }
     }
     sums

@@ -71,36 +71,33 @@ fn survey(change: Change, is_outside: bool) -> [(f32, f32); 2] {
 
 /// Thousandths of the light that a lobe may make, and lose, where it is not 1: what a deep run finds, a little rounded.
 ///
-/// What is far from 1 is known for what it is: matte matter under a boundary that is seen from inside of a body, where total
-/// reflection begins like an edge; drawn-out highlights of glass and plastic, which have no tables of their own; glass that
-/// hardly bends and hardly scatters; and several rough layers over each other.
+/// What is more than 1 is known for what it is: films whose colours change faster over the angle than curves tell, highlights
+/// drawn out of a nearly smooth surface or under a cover, drawn-out glass whose facets lean askew, and nearly smooth glass from inside, at the most
+/// grazing angles.
 fn bound(name: &str, is_outside: bool) -> [f32; 2] {
     match (name, is_outside) {
-        ("metal" | "plastic, ior 0" | "thin glass", _) => [1.5, 1.0],
-        ("plastic, anisotropic", _) => [1.0, 15.0],
-        ("glass, anisotropic", true) => [14.0, 2.0],
-        ("glass, anisotropic", false) => [76.0, 88.0],
-        ("glass, half", false) => [40.0, 160.0],
-        ("glass, ior 1.05", true) => [3.5, 9.0],
-        ("glass, ior 1.05", false) => [7.0, 90.0],
-        ("coat over sheen", _) => [1.0, 22.0],
-        ("all layers", _) => [1.0, 15.5],
-        ("sheen over plastic" | "sheen over metal", _) => [3.0, 9.0],
-        ("coat over plastic", _) => [1.0, 6.0],
-        ("plastic, rough matte" | "plastic, film", _) => [3.0, 2.0],
-        (_, false) => [8.0, 7.0],
-        (
-            "metal, anisotropic" | "matte" | "matte, rough" | "glass" | "glass, film" | "glass, dispersed",
-            _,
-        ) => [1.0, 1.5],
-        ("coat over metal" | "rough coat over metal" | "coat over matte", _) => [1.5, 1.5],
-        ("glass, ior 2.4" | "glass, ior 0.7" | "coat over glass", _) => [2.5, 5.0],
-        _ => PLASTIC,
+        ("glass, anisotropic", true) => [5.0, 3.9],
+        ("glass, anisotropic", false) => [12.0, 3.1],
+        ("glass, ior 1.05", true) => [0.8, 1.3],
+        ("glass, ior 1.05", false) => [4.4, 4.1],
+        ("glass, ior 2.4", true) => [0.8, 4.8],
+        ("glass, ior 2.4", false) => [1.6, 14.0],
+        ("glass, ior 0.7", true) => [2.7, 4.8],
+        ("glass, ior 0.7", false) => [1.0, 1.7],
+        ("glass, half", false) => [1.4, 1.8],
+        ("glass, half specular", true) => [0.9, 1.4],
+        ("glass, half specular", false) => [6.6, 11.5],
+        ("glass" | "glass, dispersed" | "glass, film", false) => [4.8, 8.6],
+        ("glass, dispersed" | "glass, film", true) => [1.0, 1.0],
+        ("plastic, anisotropic", _) => [2.7, 0.9],
+        ("plastic, film", _) => [0.9, 1.6],
+        ("coat over metal, anisotropic", _) => [9.5, 3.0],
+        ("metal" | "plastic, ior 0" | "thin glass" | "sheen over plastic" | "sheen over metal", _) => {
+            [1.4, 0.9]
+        }
+        _ => [0.9, 0.9],
     }
 }
-
-/// Matte matter under a boundary, from the outside.
-const PLASTIC: [f32; 2] = [1.5, 1.5];
 
 #[test]
 fn bsdf_furnace_is_white() {

@@ -23,7 +23,10 @@ fn difference(a: Rgb, b: Rgb) -> f32 {
 
 #[test]
 fn bsdf_reflection_is_reciprocal() {
-    for (name, change) in LOSSLESS {
+    let tinted: (&str, Change) = ("metal, tinted edge", |p| {
+        (p.metalness, p.base_color, p.edge_color) = (1.0, Rgb::new(0.9, 0.6, 0.2), Rgb::new(0.3, 1.0, 0.5));
+    });
+    for (name, change) in LOSSLESS.iter().chain([&tinted]) {
         for roughness in [0.3, 0.6, 1.0] {
             let bsdf = outside(&rough(*change, roughness));
             // A coat over a body takes from refracted light on the way in alone.
