@@ -12,6 +12,7 @@ use super::balance::Balance;
 use super::base::{Base, Passage};
 use super::cover::Cover;
 use super::glass_fill::GlassFill;
+use super::spread::Spread;
 use crate::bsdf::diffuse::Matte;
 use crate::bsdf::standard::StandardPoint;
 use crate::bsdf::table::{Curve, CurveSeen, Place, Reflection, Stopped};
@@ -19,6 +20,9 @@ use glam::Vec3;
 use heliostat_geometry::error_bound;
 use heliostat_scene::Rgb;
 use std::f32::consts::FRAC_1_PI;
+
+/// A direction near the horizon, where facets lose most.
+const LOW: Vec3 = Vec3::new(0.999_8, 0.0, 0.02);
 
 /// What is sent to either side.
 #[derive(Clone, Copy, Debug, Default)]
@@ -38,6 +42,9 @@ pub(super) struct Fill {
     /// Boundary of clear matter, and whether there is none over the matte part.
     face: Face,
     is_bare: bool,
+    /// How directions are drawn above and below.
+    pub(super) up: Spread,
+    pub(super) down: Spread,
 }
 
 /// Light that facets throw at each other: its color on either side, and the mean of its profile.
@@ -154,10 +161,23 @@ impl Fill {
         let face = Face { curve: reflection.seen(&curve), between, is_dark: curve.is_zero(), bare: curve };
         let is_bent = base.passage == Passage::Bent;
         let bent = base.ggx.as_ref().filter(|_| is_bent);
+        let glass = bent.map(|ggx| GlassFill::new(base, ggx, &reflection));
+        let matte = matte_fill(point, base, cover, &reflection, &face);
+        // Matte matter outshines what facets throw at each other.
+        let (up, down) = match (&glass, &matte) {
+            _ if base.ggx.is_none() || matte.is_some() => (Spread::COSINE, Spread::COSINE),
+            (Some(glass), _) => glass.spreads(&reflection.place(LOW)),
+            (None, _) => {
+                let lost = reflection.lost(&reflection.place(LOW)) / reflection.lost_mean();
+                (Spread::towards_horizon(lost), Spread::towards_horizon(lost))
+            }
+        };
         Self {
             facets: base.ggx.is_some().then(|| facet_fill(base, cover, &reflection, &face)),
-            matte: matte_fill(point, base, cover, &reflection, &face),
-            glass: bent.map(|ggx| GlassFill::new(base, ggx, &reflection)),
+            matte,
+            glass,
+            up,
+            down,
             cover: (base.ggx.is_some() && !cover.is_none()).then(|| CoverFill::new(base, cover, &reflection)),
             reflection,
             face,

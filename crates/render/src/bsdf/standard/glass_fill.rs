@@ -2,6 +2,7 @@
 
 use super::base::Base;
 use super::fill::Sides;
+use super::spread::Spread;
 use crate::bsdf::fresnel::refraction;
 use crate::bsdf::ggx::Ggx;
 use crate::bsdf::table::{Curve, Losses, Place, Reflection};
@@ -71,6 +72,12 @@ impl GlassFill {
         let across = smooth / here.mean.max(there.mean);
         let same = (Rgb::ONE - across * there.mean).max(Rgb::ZERO) / here.mean;
         Self { weight: base.glass_share(), tint: base.tint, here, there, same, across }
+    }
+
+    /// How directions are drawn on this side and the other, by what is lost near the horizon.
+    pub(super) fn spreads(&self, low: &Place) -> (Spread, Spread) {
+        let spread = |side: &Side| Spread::towards_horizon((side.loss(low) / side.mean).max_element());
+        (spread(&self.here), spread(&self.there))
     }
 
     /// What is lost of light from this side.

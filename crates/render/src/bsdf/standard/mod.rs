@@ -11,6 +11,7 @@ mod cover;
 mod fill;
 mod glass_fill;
 mod point;
+mod spread;
 pub(crate) mod view;
 
 pub(crate) use point::StandardPoint;

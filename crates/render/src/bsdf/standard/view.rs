@@ -20,11 +20,11 @@ pub(crate) enum Way {
     Fibres,
     /// Reflected by facets of the base, or through them.
     Facets,
-    /// By the cosine above.
+    /// Anywhere above, by the cosine or towards the horizon.
     Up,
-    /// By the cosine below.
+    /// The same below.
     Down,
-    /// In, to walk below the surface: by the cosine as well.
+    /// In, to walk below the surface: by the cosine.
     Under,
 }
 
@@ -77,9 +77,9 @@ impl<'b> View<'b> {
     pub(crate) fn matte_pdf(&self, wi: Vec3) -> f32 {
         if wi.z > 0.0 {
             let fibres = self.share(Way::Fibres) * warp::hemisphere_pdf(wi);
-            fibres + self.share(Way::Up) * warp::cosine_hemisphere_pdf(wi)
+            fibres + self.share(Way::Up) * self.bsdf.fill.up.pdf(wi.z)
         } else {
-            self.share(Way::Down) * warp::cosine_hemisphere_pdf(-wi)
+            self.share(Way::Down) * self.bsdf.fill.down.pdf(wi.z)
         }
     }
 
@@ -113,6 +113,16 @@ impl<'b> View<'b> {
         (facets + fibres + up + down + under * color + coat).min(Rgb::ONE)
     }
 
+    /// Probability with which a way that leads anywhere goes towards the horizon.
+    #[cfg(test)]
+    pub(crate) fn low_chance(&self, way: Way) -> f32 {
+        match way {
+            Way::Up => self.bsdf.fill.up.low,
+            Way::Down => self.bsdf.fill.down.low,
+            Way::Coat | Way::Fibres | Way::Facets | Way::Under => 0.0,
+        }
+    }
+
     /// Probability of a way.
     pub(crate) fn share(&self, way: Way) -> f32 {
         self.shares[way as usize]
@@ -133,7 +143,7 @@ impl<'b> View<'b> {
         let cover = &bsdf.cover;
         let profiles = bsdf.fill.profiles(cover, wi);
         let mut value = bsdf.fill.value((wo, &self.profiles), (wi, &profiles));
-        let mut pdf = self.share(Way::Up) * warp::cosine_hemisphere_pdf(wi);
+        let mut pdf = self.share(Way::Up) * bsdf.fill.up.pdf(wi.z);
         if let Some(coat) = &cover.coat {
             value += Rgb::splat(coat.value(wo, wi));
             pdf += self.share(Way::Coat) * coat.pdf(wo, wi);
@@ -155,7 +165,7 @@ impl<'b> View<'b> {
         let (bsdf, wo) = (self.bsdf, self.wo);
         let profiles = bsdf.fill.profiles(&bsdf.cover, wi);
         let mut value = bsdf.fill.value((wo, &self.profiles), (wi, &profiles));
-        let mut pdf = self.share(Way::Down) * warp::cosine_hemisphere_pdf(-wi);
+        let mut pdf = self.share(Way::Down) * bsdf.fill.down.pdf(wi.z);
         let Some(ggx) = &bsdf.base.ggx else { return (value, pdf) };
         let share = self.share(Way::Facets);
         match bsdf.base.passage {
@@ -256,13 +266,13 @@ impl<'b> View<'b> {
                 Facing::Rough(wi, event) => (wi, event),
                 Facing::Smooth(sample) => return sample,
             },
-            Way::Up => (warp::square_to_cosine_hemisphere(at), Event::Diffuse),
+            Way::Up => (bsdf.fill.up.draw(rest, at), Event::Diffuse),
             Way::Under => {
                 let wi = mirrored_down(warp::square_to_cosine_hemisphere(at));
                 let weight = bsdf.fill.under(&bsdf.cover, wo).0;
                 return self.delta(way, wi, weight, Event::Subsurface);
             }
-            Way::Down => (mirrored_down(warp::square_to_cosine_hemisphere(at)), Event::Diffuse),
+            Way::Down => (mirrored_down(bsdf.fill.down.draw(rest, at)), Event::Diffuse),
         };
         let (value, pdf) = self.answer(wi);
         (pdf > 0.0).then(|| BsdfSample { wi, weight: value / pdf, pdf, event })

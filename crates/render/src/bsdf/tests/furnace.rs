@@ -27,10 +27,12 @@ fn furnace(bsdf: &StandardBsdf, wo: Vec3) -> Rgb {
     (sum / (NODES * NODES) as f64).as_vec3()
 }
 
-/// All that the third number decides, with its share: whether facets reflect, or which one of three rays goes through.
+/// All that the third number decides, with its share: whether facets reflect, or which one of three rays goes through; whether
+/// what goes anywhere goes towards the horizon.
 fn rests(view: &View<'_>, way: Way, at: Vec2) -> Vec<(f32, f32)> {
     if way != Way::Facets {
-        return vec![(0.5, 1.0)];
+        let low = view.low_chance(way);
+        return [(0.5 * low, low), (0.5 + 0.5 * low, 1.0 - low)].into_iter().filter(|r| r.1 > 0.0).collect();
     }
     let chance = view.reflect_chance(at);
     let rays = [1.0, 3.0, 5.0].map(|k| (chance + (1.0 - chance) * k / 6.0, (1.0 - chance) / 3.0));
@@ -86,7 +88,7 @@ fn bound(name: &str, is_outside: bool) -> [f32; 2] {
         ("glass, ior 0.7", false) => [1.0, 1.7],
         ("glass, half", false) => [1.4, 1.8],
         ("glass, half specular", true) => [0.9, 1.4],
-        ("glass, half specular", false) => [6.6, 11.5],
+        ("glass, half specular", false) => [7.6, 11.5],
         ("glass" | "glass, dispersed" | "glass, film", false) => [4.8, 8.6],
         ("glass, dispersed" | "glass, film", true) => [1.0, 1.0],
         ("plastic, anisotropic", _) => [2.7, 0.9],
