@@ -204,6 +204,16 @@ impl View<'_> {
         }
     }
 
+    /// How broadly it scatters, from 0 where mirrors and clear glass are all there is to 1 where all of it is matte: the mean width of
+    /// what [`Self::sample`] draws. A guess, of which nothing depends but noise.
+    #[inline]
+    pub(crate) fn breadth(&self) -> f32 {
+        match self {
+            Self::Phong(phong, _) => phong.breadth(),
+            Self::Standard(view) => view.breadth(),
+        }
+    }
+
     /// The share of the light that goes through without a bend, per channel in `[0, 1]`; 0 where it is bent or scattered.
     #[inline]
     pub(crate) fn straight(&self) -> Rgb {
