@@ -77,7 +77,7 @@ fn caustics(settings: &RenderSettings) -> Result<(), RenderError> {
 
 /// Practice.
 fn guiding(settings: &RenderSettings) -> Result<(), RenderError> {
-    let (paths, most) = (settings.guiding_paths, RenderSettings::MOST_GUIDING_PATHS);
+    let (paths, most) = (settings.guiding_paths.unwrap_or(1), RenderSettings::MOST_GUIDING_PATHS);
     setting("guiding_paths", paths as f32, "from 1 to 268435456", (1..=most).contains(&paths))?;
     match (settings.guiding, settings.integrator) {
         (Guiding::Learn, IntegratorKind::VolPath | IntegratorKind::PathSimple) => {

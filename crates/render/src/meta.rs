@@ -13,6 +13,7 @@
 
 use crate::camera_ray::CameraRays;
 use crate::film::Film;
+use crate::guiding::practice;
 use glam::{DAffine3, DMat4, DVec3, DVec4};
 use heliostat_scene::frame::Meta;
 use heliostat_scene::settings::{Caustics, DepthLimits, Filter, Guiding, IntegratorKind, SamplerKind};
@@ -43,7 +44,7 @@ pub(crate) fn meta(
     say("heliostat/integrator", text(integrator_name(settings.integrator)));
     if settings.integrator == IntegratorKind::Path && settings.guiding == Guiding::Learn {
         say("heliostat/guiding", text("learn"));
-        say("heliostat/guidingPaths", int(settings.guiding_paths));
+        say("heliostat/guidingPaths", int(practice(settings)));
     }
     if settings.integrator.traces_paths() {
         say_biases(settings, &mut say);

@@ -246,8 +246,9 @@ pub struct RenderSettings {
     pub caustic_radius: Option<f32>,
     /// Whether paths learn where light comes from.
     pub guiding: Guiding,
-    /// Paths that are followed for practice, from 1 to [`Self::MOST_GUIDING_PATHS`], where guiding is asked for.
-    pub guiding_paths: u32,
+    /// Paths that are followed for practice, from 1 to [`Self::MOST_GUIDING_PATHS`], where guiding is asked for; an eighth of the camera
+    /// rays of the picture, as far as `samples` says, if `None`.
+    pub guiding_paths: Option<u32>,
     /// Which of many lights paths ask.
     pub light_choice: LightChoice,
     /// Rays per point of the `ambient_occlusion` integrator.
@@ -291,7 +292,7 @@ impl Default for RenderSettings {
             caustic_photons: Self::CAUSTIC_PHOTONS,
             caustic_radius: None,
             guiding: Guiding::None,
-            guiding_paths: Self::GUIDING_PATHS,
+            guiding_paths: None,
             light_choice: LightChoice::Tree,
             ao_samples: 16,
             ao_distance: f32::INFINITY,
@@ -314,10 +315,7 @@ impl RenderSettings {
     /// The most photons for each sample: 2^24, about a gigabyte of them.
     pub const MOST_PHOTONS: u32 = 1 << 24;
 
-    /// Paths for practice where nobody says otherwise.
-    pub const GUIDING_PATHS: u32 = 1 << 20;
-
-    /// The most paths for practice.
+    /// The most paths for practice: 2^28.
     pub const MOST_GUIDING_PATHS: u32 = 1 << 28;
 
     /// The most samples of a pixel where nobody says otherwise.

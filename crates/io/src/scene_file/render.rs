@@ -25,7 +25,7 @@
 //! # caustic_photons = 100000     # photons for each sample
 //! # caustic_radius = 0.01        # metres around a point in which they count at first; by the size of the glass if left out
 //! guiding = "none"               # "learn": paths learn where light comes from before they are counted; under "path"
-//! # guiding_paths = 1048576      # paths for practice
+//! # guiding_paths = 1000000      # paths for practice; an eighth of the camera rays if left out
 //! light_choice = "tree"          # which of many lights paths ask; "power", "uniform"
 //! ao_samples = 16                # rays per point of the integrator "ambient_occlusion"
 //! # ao_distance = 1              # their length in metres; without end if left out
@@ -104,7 +104,8 @@ pub struct RenderTable {
     /// Whether paths learn where light comes from before they are counted, under `path`: the same picture, with less noise where
     /// light comes by narrow ways. `none` if left out.
     pub guiding: Option<GuidingName>,
-    /// Paths that are followed for practice, over the whole picture; 1048576 if left out.
+    /// Paths that are followed for practice, over the whole picture; an eighth of its camera rays by `samples`, from 16384 to
+    /// 4194304, if left out.
     pub guiding_paths: Option<Placed<Whole<1, 268_435_456>>>,
     /// Which of many lights the integrators of paths ask: the noise is another, the picture the same. `tree` if left out.
     pub light_choice: Option<LightChoiceName>,
@@ -320,7 +321,7 @@ impl RenderTable {
                 .map_or(normal.caustic_photons, |count| count.u32()),
             caustic_radius: self.caustic_radius.as_ref().map(|radius| radius.f32()),
             guiding: self.guiding()?,
-            guiding_paths: self.guiding_paths.as_ref().map_or(normal.guiding_paths, |count| count.u32()),
+            guiding_paths: self.guiding_paths.as_ref().map(|count| count.u32()),
             light_choice: self
                 .light_choice
                 .and_then(|name| counterpart(&LIGHT_CHOICES, name))
@@ -429,9 +430,10 @@ impl RenderTable {
                 .and_then(|radius| Positive::new(radius.into()))
                 .map(Placed::from),
             guiding: Some(if learns { GuidingName::Learn } else { GuidingName::None }),
-            guiding_paths: learns
-                .then_some(settings.guiding_paths.into())
-                .and_then(Whole::new)
+            guiding_paths: settings
+                .guiding_paths
+                .filter(|_| learns)
+                .and_then(|paths| Whole::new(paths.into()))
                 .map(Placed::from),
             light_choice: counterpart_of(&LIGHT_CHOICES, settings.light_choice),
             ao_samples: Whole::new(settings.ao_samples.into()),

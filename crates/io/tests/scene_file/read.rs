@@ -175,7 +175,7 @@ fn settings_survive_being_written_and_read() {
         caustic_radius: Some(0.25),
         mip_maps: false,
         guiding: Guiding::Learn,
-        guiding_paths: 12_345,
+        guiding_paths: Some(12_345),
         light_choice: LightChoice::Uniform,
         ao_samples: 5,
         ao_distance: 1.0e5,

@@ -20,7 +20,7 @@ mod sheen;
 mod standard;
 mod table;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub(crate) use known::KnownBsdfs;
 pub(crate) use standard::view::View as StandardView;

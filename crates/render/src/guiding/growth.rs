@@ -2,15 +2,14 @@
 //!
 //! # Source
 //! Müller, Gross, Novák 2017, section 3.2 (where squares are divided); Müller 2019, sections 10.3 (box filter) and 10.5 (the share
-//! of the surface, by the divergence of Kullback and Leibler; here the best of a few shares instead of a descent); Rath et al. 2020,
-//! equation 8: the density that is best for a surface is that of the root of the mean square of what it sends on.
+//! of the surface, by the divergence of Kullback and Leibler; here the best of a few shares instead of a descent).
 
 use super::directions::{Directions, Node, quarter_of, within};
 use super::trail::Record;
 use glam::Vec2;
 
 /// A square is divided where it holds more than this share of all.
-const LARGEST_SHARE: f32 = 0.01;
+const LARGEST_SHARE: f32 = 0.03;
 /// So often, at most.
 const MOST_DEPTH: u32 = 14;
 /// Nodes of a tree, at most.
@@ -56,7 +55,7 @@ impl Growth {
         for turn in [-1.0, 0.0, 1.0] {
             let low = low + Vec2::new(turn, 0.0);
             if low.x < 1.0 && low.x + size > 0.0 {
-                self.spread(0, (Vec2::ZERO, 0.5), (low, size), record.value / (size * size));
+                self.spread(0, (Vec2::ZERO, 0.5), (low, size), sent / (size * size));
             }
         }
         let Some(odds) = lead else { return };
@@ -92,23 +91,25 @@ impl Growth {
         }
     }
 
-    /// The values of all quarters of all nodes, as they count for directions.
+    /// What lies in all quarters of all nodes, those that are divided included.
     fn summed(&self) -> Vec<Node> {
-        let mut areas = vec![0.25_f32; self.nodes.len()];
-        for (i, node) in self.nodes.iter().enumerate() {
-            node.below.iter().filter(|&&below| below != 0).for_each(|&below| areas[below as usize] = 0.25 * areas[i]);
-        }
         let mut nodes = self.nodes.clone();
         // Children stand behind their parents.
         for i in (0..nodes.len()).rev() {
             for quarter in 0..4 {
-                nodes[i].values[quarter] = match nodes[i].below[quarter] {
-                    0 => target(nodes[i].values[quarter], areas[i]),
-                    below => nodes[below as usize].values.iter().sum(),
-                };
+                let below = nodes[i].below[quarter] as usize;
+                if below != 0 {
+                    nodes[i].values[quarter] = nodes[below].values.iter().sum();
+                }
             }
         }
         nodes
+    }
+
+    /// All that was found.
+    #[cfg(test)]
+    pub(super) fn found(&self) -> f32 {
+        self.summed()[0].values.iter().sum()
     }
 
     /// The density that was learnt.
@@ -151,9 +152,4 @@ impl Growth {
         }
         index as u32
     }
-}
-
-/// What a square of an area counts for in which so much was found.
-fn target(value: f32, area: f32) -> f32 {
-    match super::trail::mode() { 2 => (value * area).sqrt(), _ => value }
 }

@@ -30,6 +30,11 @@ pub(super) struct Odds {
 }
 
 impl Odds {
+    #[cfg(test)]
+    pub(super) fn new(surface: f32, learnt: f32, breadth: f32) -> Self {
+        Self { surface, learnt, breadth }
+    }
+
     /// The density in a mixture that leaves so much to a surface that scatters all around.
     pub(super) fn mixed(&self, own: f32) -> f32 {
         let share = share(own, self.breadth);

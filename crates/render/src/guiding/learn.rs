@@ -22,7 +22,7 @@ const ROW: u32 = 512;
 /// Places of a turn that say where leaves are to be cut.
 const MOST_PLACES: usize = 1 << 20;
 /// Records that a leaf should have learnt from.
-const RECORDS_PER_LEAF: usize = 1000;
+const RECORDS_PER_LEAF: usize = 4000;
 
 /// The picture that paths practise for.
 #[derive(Clone, Copy)]
@@ -143,7 +143,8 @@ impl Turn<'_> {
     fn path(&self, path: u32, records: &mut Vec<Record>, rays: &mut RayCounters) {
         let sampler = Sampler::of_practice(self.seed, self.index, path);
         let [width, height] = self.course.size;
-        let place = sampler.fork(branch::POSITIVE).next_2d().as_dvec2() * DVec2::new(width.into(), height.into());
+        let place =
+            sampler.fork(branch::POSITIVE).next_2d().as_dvec2() * DVec2::new(width.into(), height.into());
         let mut draws = sampler.fork(branch::CAMERA);
         let Some(ray) = self.course.camera.ray(place, draws.next_2d(), draws.next_1d()) else { return };
         rays.camera += 1;

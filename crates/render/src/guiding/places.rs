@@ -23,7 +23,11 @@ pub(super) struct Places {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Node {
     /// Below `at` along the axis lies the first child, behind which stands the other.
-    Cut { axis: u8, at: f32, first: u32 },
+    Cut {
+        axis: u8,
+        at: f32,
+        first: u32,
+    },
     Leaf(u32),
 }
 
@@ -71,7 +75,8 @@ impl Places {
         if points.is_empty() {
             return;
         }
-        let (min, max) = points.iter().fold((points[0], points[0]), |(min, max), p| (min.min(*p), max.max(*p)));
+        let (min, max) =
+            points.iter().fold((points[0], points[0]), |(min, max), p| (min.min(*p), max.max(*p)));
         self.extents[leaf as usize] = max - min;
         if points.len() <= most || self.extents.len() >= MOST_LEAVES {
             return;

@@ -1,6 +1,6 @@
 //! What a path leaves behind: where light was scattered, and how much of it has come from there in the end.
 
-use super::lead::{Lead, Odds};
+use super::lead::Odds;
 use crate::path_point::{Onward, PathPoint};
 use glam::{Vec2, Vec3};
 use heliostat_geometry::warp::sphere_to_square;
@@ -42,8 +42,6 @@ pub(super) struct Record {
     pub(super) dir: Vec2,
     /// The density with which it was found.
     pub(super) pdf: f32,
-    /// What counts of it, over the density.
-    pub(super) value: f32,
     /// What the surface has sent on, over the density.
     pub(super) sent: f32,
     /// The densities of what it was drawn from, where something was learnt.
@@ -63,7 +61,7 @@ impl Trail {
             dir,
             pdf: sample.pdf,
             value: mean(sample.weight) * sample.pdf,
-            lead: point.lead().map(|lead: &Lead<'_>| lead.odds(dir, sample.pdf)),
+            lead: point.lead().map(|lead| lead.odds(dir, sample.pdf)),
             weight,
             found,
         });
@@ -83,14 +81,9 @@ impl Step {
         let came = (found - self.found).max(Rgb::ZERO);
         let light = mean(Rgb::select(weight.cmpgt(Rgb::ZERO), came / weight, Rgb::ZERO));
         let sent = light * value / pdf;
-        let record = Record { leaf: 0, p, dir: sphere_to_square(dir), pdf, value: match mode() { 0 => light / pdf, 1 => sent, _ => sent * sent * pdf }, sent, lead };
-        (record.value.is_finite() && sent.is_finite() && p.is_finite()).then_some(record)
+        let record = Record { leaf: 0, p, dir: sphere_to_square(dir), pdf, sent, lead };
+        (sent.is_finite() && p.is_finite()).then_some(record)
     }
-}
-
-pub(super) fn mode() -> u32 {
-    static MODE: std::sync::LazyLock<u32> = std::sync::LazyLock::new(|| std::env::var("GUIDE_MODE").ok().and_then(|v| v.parse().ok()).unwrap_or(2));
-    *MODE
 }
 
 /// The mean of the channels.

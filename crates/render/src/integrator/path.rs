@@ -279,7 +279,8 @@ impl Paths<'_> {
             return ControlFlow::Break(());
         }
         let mut room = None;
-        let point = PathPoint::new(world, &covering, surface, dir, time, &way.around, &mut room).led(self.guide);
+        let point =
+            PathPoint::new(world, &covering, surface, dir, time, &way.around, &mut room).led(self.guide);
         found.first.get_or_insert_with(|| point.first_hit(object, material));
 
         // Ask a light, and send the path on.
