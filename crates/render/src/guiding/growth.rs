@@ -9,7 +9,9 @@ use super::trail::Record;
 use glam::Vec2;
 
 /// A square is divided where it holds more than this share of all.
-const LARGEST_SHARE: f32 = 0.03;
+const LARGEST_SHARE: f32 = 0.02;
+/// And light was found in it so often: what few paths have found by chance is no reason to look nowhere else.
+const LEAST_HITS: f32 = 16.0;
 /// So often, at most.
 const MOST_DEPTH: u32 = 14;
 /// Nodes of a tree, at most.
@@ -23,32 +25,48 @@ pub(super) const UNKNOWN: f32 = 0.5;
 /// What was found around a place in one turn.
 #[derive(Clone, Debug)]
 pub(super) struct Growth {
-    /// Values of quarters that are divided are 0.
-    nodes: Vec<Node>,
-    /// By [`OWN_SHARES`]: the mean logarithm of the density, by the light that was sent on, times the number of records.
+    /// As of [`Node`].
+    below: Vec<[u32; 4]>,
+    /// By the quarters of nodes that are not divided: what was found there,
+    light: Vec<[f32; 4]>,
+    /// and how often.
+    hits: Vec<[f32; 4]>,
+    /// By [`OWN_SHARES`]: the logarithms of the density, by the light that was sent on.
     evidence: [f32; OWN_SHARES.len()],
 }
 
-/// What a new tree is made from.
+/// What a tree has found in all quarters of all nodes, those that are divided included.
+struct Sums {
+    light: Vec<[f32; 4]>,
+    hits: Vec<[f32; 4]>,
+}
+
+/// What a node of a new tree is made from.
 #[derive(Clone, Copy)]
 enum Old {
     /// A node of the tree before.
-    Node(u32),
-    /// A square that was not divided, with what it held.
-    Even(f32),
+    Node(usize),
+    /// A square that was not divided: the light in it, and how often some was found.
+    Even(f32, f32),
 }
 
 impl Growth {
     /// One that takes all directions for the same.
     pub(super) fn new() -> Self {
-        Self { nodes: vec![Node::default()], evidence: [0.0; OWN_SHARES.len()] }
+        Self {
+            below: vec![[0; 4]],
+            light: vec![[0.0; 4]],
+            hits: vec![[0.0; 4]],
+            evidence: [0.0; OWN_SHARES.len()],
+        }
     }
 
     /// Lays down what was found.
     pub(super) fn add(&mut self, record: &Record) {
         let Record { sent, lead, .. } = record;
         let u = within(record.dir);
-        let size = self.size_at(u);
+        let (node, quarter, size) = self.square_at(u);
+        self.hits[node][quarter] += 1.0;
         // A box of the size of the square, around the direction. There is no way around over the poles, but there is one around
         // the axis.
         let low = Vec2::new(u.x - 0.5 * size, (u.y - 0.5 * size).clamp(0.0, 1.0 - size));
@@ -64,57 +82,60 @@ impl Growth {
         }
     }
 
-    /// The side of the undivided square that holds a point.
-    fn size_at(&self, mut u: Vec2) -> f32 {
+    /// The undivided square that holds a point: a quarter of a node, and its side.
+    fn square_at(&self, mut u: Vec2) -> (usize, usize, f32) {
         let (mut size, mut at) = (0.5, 0);
         loop {
-            at = self.nodes[at].below[quarter_of(&mut u)] as usize;
-            if at == 0 {
-                return size;
+            let quarter = quarter_of(&mut u);
+            match self.below[at][quarter] {
+                0 => return (at, quarter, size),
+                below => at = below as usize,
             }
             size *= 0.5;
         }
     }
 
     /// Adds what a box holds to the quarters of a node with that corner, which are `side` wide.
-    fn spread(&mut self, at: u32, (corner, side): (Vec2, f32), (low, size): (Vec2, f32), density: f32) {
+    fn spread(&mut self, at: usize, (corner, side): (Vec2, f32), (low, size): (Vec2, f32), density: f32) {
         for quarter in 0..4 {
             let corner = corner + side * Vec2::new((quarter & 1) as f32, (quarter >> 1) as f32);
             let common = (corner + side).min(low + size) - corner.max(low);
             if common.min_element() <= 0.0 {
                 continue;
             }
-            match self.nodes[at as usize].below[quarter] {
-                0 => self.nodes[at as usize].values[quarter] += density * common.x * common.y,
-                below => self.spread(below, (corner, 0.5 * side), (low, size), density),
+            match self.below[at][quarter] {
+                0 => self.light[at][quarter] += density * common.x * common.y,
+                below => self.spread(below as usize, (corner, 0.5 * side), (low, size), density),
             }
         }
     }
 
-    /// What lies in all quarters of all nodes, those that are divided included.
-    fn summed(&self) -> Vec<Node> {
-        let mut nodes = self.nodes.clone();
+    /// The values of all quarters, from those that are not divided.
+    fn summed(&self, mut values: Vec<[f32; 4]>) -> Vec<[f32; 4]> {
         // Children stand behind their parents.
-        for i in (0..nodes.len()).rev() {
+        for i in (0..values.len()).rev() {
             for quarter in 0..4 {
-                let below = nodes[i].below[quarter] as usize;
+                let below = self.below[i][quarter] as usize;
                 if below != 0 {
-                    nodes[i].values[quarter] = nodes[below].values.iter().sum();
+                    values[i][quarter] = values[below].iter().sum();
                 }
             }
         }
-        nodes
+        values
     }
 
     /// All that was found.
     #[cfg(test)]
     pub(super) fn found(&self) -> f32 {
-        self.summed()[0].values.iter().sum()
+        self.summed(self.light.clone())[0].iter().sum()
     }
 
     /// The density that was learnt.
     pub(super) fn directions(&self) -> Option<Directions> {
-        Directions::new(self.summed())
+        let light = self.summed(self.light.clone());
+        Directions::new(
+            light.into_iter().zip(&self.below).map(|(values, &below)| Node { values, below }).collect(),
+        )
     }
 
     /// The share of the surface for which the mixture comes closest to what was sent on.
@@ -129,25 +150,29 @@ impl Growth {
 
     /// An empty one for the next turn, divided where this one has found much.
     pub(super) fn refined(&self) -> Self {
-        let old = self.summed();
-        let all: f32 = old[0].values.iter().sum();
-        let mut new = Self { nodes: Vec::new(), ..Self::new() };
-        new.divide(&old, Old::Node(0), 1, LARGEST_SHARE * all);
+        let old = Sums { light: self.summed(self.light.clone()), hits: self.summed(self.hits.clone()) };
+        let most = LARGEST_SHARE * old.light[0].iter().sum::<f32>();
+        let mut new = Self { below: Vec::new(), ..Self::new() };
+        new.divide((self, &old), Old::Node(0), 1, most);
+        new.light = vec![[0.0; 4]; new.below.len()];
+        new.hits.clone_from(&new.light);
         new
     }
 
     /// Appends a node, and those below it whose squares hold more than `most`; its index.
-    fn divide(&mut self, old: &[Node], from: Old, depth: u32, most: f32) -> u32 {
-        let index = self.nodes.len();
-        self.nodes.push(Node::default());
+    fn divide(&mut self, before: (&Self, &Sums), from: Old, depth: u32, most: f32) -> u32 {
+        let (tree, sums) = before;
+        let index = self.below.len();
+        self.below.push([0; 4]);
         for quarter in 0..4 {
-            let (value, below) = match from {
-                Old::Node(node) => (old[node as usize].values[quarter], old[node as usize].below[quarter]),
-                Old::Even(value) => (0.25 * value, 0),
+            let (light, hits, below) = match from {
+                Old::Node(i) => (sums.light[i][quarter], sums.hits[i][quarter], tree.below[i][quarter]),
+                Old::Even(light, hits) => (0.25 * light, 0.25 * hits, 0),
             };
-            if value > most && depth < MOST_DEPTH && self.nodes.len() < MOST_NODES {
-                let from = if below == 0 { Old::Even(value) } else { Old::Node(below) };
-                self.nodes[index].below[quarter] = self.divide(old, from, depth + 1, most);
+            let is_rich = light > most && hits >= LEAST_HITS;
+            if is_rich && depth < MOST_DEPTH && self.below.len() < MOST_NODES {
+                let from = if below == 0 { Old::Even(light, hits) } else { Old::Node(below as usize) };
+                self.below[index][quarter] = self.divide(before, from, depth + 1, most);
             }
         }
         index as u32

@@ -21,8 +21,8 @@ const BATCH: u32 = 1 << 15;
 const ROW: u32 = 512;
 /// Places of a turn that say where leaves are to be cut.
 const MOST_PLACES: usize = 1 << 20;
-/// Records that a leaf should have learnt from.
-const RECORDS_PER_LEAF: usize = 4000;
+/// Records that a leaf should learn from, each of which has found some light.
+const RECORDS_PER_LEAF: usize = 2000;
 
 /// The picture that paths practise for.
 #[derive(Clone, Copy)]

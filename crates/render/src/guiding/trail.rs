@@ -74,7 +74,7 @@ impl Trail {
 }
 
 impl Step {
-    /// `None` where there is no number for it.
+    /// `None` where no light came, or there is no number for it.
     fn record(&self, found: Rgb) -> Option<Record> {
         let Self { p, dir, pdf, value, lead, weight, .. } = *self;
         // Per channel: what is carried of one says nothing about light in another.
@@ -82,7 +82,7 @@ impl Step {
         let light = mean(Rgb::select(weight.cmpgt(Rgb::ZERO), came / weight, Rgb::ZERO));
         let sent = light * value / pdf;
         let record = Record { leaf: 0, p, dir: sphere_to_square(dir), pdf, sent, lead };
-        (sent.is_finite() && p.is_finite()).then_some(record)
+        (sent > 0.0 && sent.is_finite() && p.is_finite()).then_some(record)
     }
 }
 
