@@ -21,8 +21,6 @@ const BATCH: u32 = 1 << 15;
 const ROW: u32 = 512;
 /// Places of a turn that say where leaves are to be cut.
 const MOST_PLACES: usize = 1 << 20;
-/// Records that a leaf should learn from, each of which has found some light.
-const RECORDS_PER_LEAF: usize = 2000;
 
 /// The picture that paths practise for.
 #[derive(Clone, Copy)]
@@ -81,10 +79,11 @@ pub(crate) fn learn(settings: GuidingSettings, course: &Course<'_>, follow: &Fol
     Some(guide)
 }
 
-/// Cuts leaves that have found much, and the squares of their trees over directions: empty growths for the next turn.
+/// Cuts leaves that have found light often, so that in the next turn each will find it as often as there are leaves; and the squares of their trees over directions: empty growths for the next turn.
 fn divide(guide: &mut Guide, found: &Found) -> Vec<Growth> {
     let share = found.places.len() as f64 / found.count.max(1) as f64;
-    let most = (RECORDS_PER_LEAF as f64 * 0.5 * share).ceil() as usize;
+    let records = (2.0 * found.count as f64).sqrt();
+    let most = (0.5 * records * share).ceil() as usize;
     let origins = guide.places.divide(&found.places, most);
     let refined: Vec<_> = found.growths.par_iter().map(Growth::refined).collect();
     guide.lobes = origins.iter().map(|&origin| guide.lobes[origin as usize].clone()).collect();
