@@ -211,6 +211,15 @@ impl<'a> PathPoint<'a> {
         Self { lead, ..self }
     }
 
+    /// How much likelier what leads paths on has made a draw than the surface alone.
+    #[inline]
+    pub(crate) fn likelier(&self, sample: &BsdfSample) -> f32 {
+        match &self.lead {
+            Some(lead) if !sample.is_delta() => lead.likelier(self.frame.to_world(sample.wi), sample.pdf),
+            _ => 1.0,
+        }
+    }
+
     /// What leads paths on from here, beside the surface.
     pub(crate) fn lead(&self) -> Option<&Lead<'a>> {
         self.lead.as_ref()

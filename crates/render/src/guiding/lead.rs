@@ -67,6 +67,13 @@ impl<'a> Lead<'a> {
         Odds { surface, learnt, breadth: self.breadth }
     }
 
+    /// How much likelier a direction is than by the surface alone that was drawn with the density `pdf`; 1 where the surface hardly
+    /// draws it at all.
+    pub(crate) fn likelier(&self, dir: Vec3, pdf: f32) -> f32 {
+        let Odds { surface, .. } = self.odds(dir, pdf);
+        if surface > 0.0 { pdf / surface } else { 1.0 }
+    }
+
     /// A direction, in the frame of the surface: by what was learnt where `layer` falls below its share, else by the surface.
     #[inline]
     pub(crate) fn sample(

@@ -60,6 +60,8 @@ struct Way {
     around: Interiors,
     /// What radiance from here is multiplied by.
     weight: Rgb,
+    /// How much likelier guiding has made it than surfaces alone would have.
+    likelier: f32,
     /// Where light was scattered last, and with what density it was sent here; `None` where only camera, mirrors and glass
     /// are behind: what it sees, nobody has asked for.
     scattered: Option<(Lookout, f32)>,
@@ -218,6 +220,7 @@ impl Paths<'_> {
             passing: PassingRay::free(ray.ray).with_cone(ray.cone),
             around: world.around(ray.ray.origin, ray.time),
             weight: Rgb::ONE,
+            likelier: 1.0,
             scattered: None,
             after: None,
             since_matte: Since::Never,
@@ -396,6 +399,7 @@ impl Way {
         self.passing = onward.passing;
         self.around.change(&onward.change);
         self.weight *= sample.weight;
+        self.likelier *= point.likelier(sample);
         self.after = Some(sample.event);
         self.sight = self.sight.after(sample.is_delta());
         self.passed_only &= sample.event == Event::Transmission;
@@ -413,7 +417,8 @@ impl Way {
     /// Ends it by chance if it carries little.
     #[inline]
     fn roulette(&mut self, draws: &mut Sampler) -> ControlFlow<()> {
-        self.weight /= survive(self.weight, self.depth.total, draws)?;
+        // What is led to where the light is weighs little, and matters all the same.
+        self.weight /= survive(self.likelier * self.weight, self.depth.total, draws)?;
         ControlFlow::Continue(())
     }
 }
