@@ -74,12 +74,13 @@ impl<'a> Lead<'a> {
         if surface > 0.0 { pdf / surface } else { 1.0 }
     }
 
-    /// A direction, in the frame of the surface: by what was learnt where `layer` falls below its share, else by the surface.
+    /// A direction, in the frame of the surface, for a path that carries so much: by what was learnt where `layer` falls below its share, else by the surface.
     #[inline]
     pub(crate) fn sample(
         &self,
         view: &View<'_>,
         frame: &OrthonormalFrame,
+        carried: Rgb,
         layer: f32,
         u: Vec2,
     ) -> Option<BsdfSample> {
@@ -88,7 +89,7 @@ impl<'a> Lead<'a> {
             return self.sample_learnt(view, frame, layer / self.share, u);
         }
         let layer = ((layer - self.share) / own).min(1.0_f32.next_down());
-        let sample = view.sample(layer, u)?;
+        let sample = view.sample(carried, layer, u)?;
         if sample.is_delta() {
             return Some(BsdfSample { weight: sample.weight / own, ..sample });
         }

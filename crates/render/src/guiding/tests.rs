@@ -204,7 +204,9 @@ fn mixtures_draw_what_they_say() {
         let (mut matte, mut expected) = (0.0, 0.0);
         for i in 0..DRAWS {
             let mut draws = Sampler::new(11, [i, 9], 0);
-            let Some(sample) = lead.sample(&view, &frame, draws.next_1d(), draws.next_2d()) else { continue };
+            let Some(sample) = lead.sample(&view, &frame, Rgb::ONE, draws.next_1d(), draws.next_2d()) else {
+                continue;
+            };
             if sample.is_delta() {
                 continue;
             }
