@@ -2,7 +2,7 @@
 
 use crate::error::{MAX_DEPTH, MAX_PIXELS, RenderError};
 use crate::filter::MAX_RADIUS;
-use heliostat_scene::settings::{Caustics, IntegratorKind, PixelRect};
+use heliostat_scene::settings::{Caustics, Guiding, IntegratorKind, PixelRect};
 use heliostat_scene::{Camera, RenderSettings, Scene};
 
 /// The camera to render with, once settings and scene are found to be in order.
@@ -53,6 +53,7 @@ fn work(settings: &RenderSettings) -> Result<(), RenderError> {
         return Err(RenderError::TooDeep(settings.max_depth));
     }
     caustics(settings)?;
+    guiding(settings)?;
     let (weight, distance) = (settings.min_weight, settings.ao_distance);
     let clamp = settings.clamp_indirect.unwrap_or(f32::INFINITY);
     setting("clamp_indirect", clamp, "above 0", clamp > 0.0)?;
@@ -69,6 +70,18 @@ fn caustics(settings: &RenderSettings) -> Result<(), RenderError> {
     match (settings.caustics, settings.integrator) {
         (Caustics::Photons, IntegratorKind::VolPath | IntegratorKind::PathSimple) => {
             Err(RenderError::PhotonsNeedPath)
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Practice.
+fn guiding(settings: &RenderSettings) -> Result<(), RenderError> {
+    let (paths, most) = (settings.guiding_paths.unwrap_or(1), RenderSettings::MOST_GUIDING_PATHS);
+    setting("guiding_paths", paths as f32, "from 1 to 268435456", (1..=most).contains(&paths))?;
+    match (settings.guiding, settings.integrator) {
+        (Guiding::Learn, IntegratorKind::VolPath | IntegratorKind::PathSimple) => {
+            Err(RenderError::GuidingNeedsPath)
         }
         _ => Ok(()),
     }

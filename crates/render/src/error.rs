@@ -67,6 +67,9 @@ pub enum RenderError {
         "caustics are asked of photons, which the integrator does not know; choose `path`, or caustics by `paths`"
     )]
     PhotonsNeedPath,
+    /// Guiding is asked for, of an integrator that learns nothing.
+    #[error("guiding is asked for, which the integrator does not know; choose `path`, or guiding = `none`")]
+    GuidingNeedsPath,
     /// The radius of the filter is out of range.
     #[error("the filter radius is {0} pixels; it must be above 0 and at most {MAX_RADIUS}")]
     FilterRadius(f32),

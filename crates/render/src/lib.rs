@@ -72,6 +72,7 @@ pub mod counters;
 pub mod error;
 pub mod film;
 pub mod filter;
+pub mod guiding;
 mod horizon;
 pub mod integrator;
 mod interiors;

@@ -13,9 +13,10 @@
 
 use crate::camera_ray::CameraRays;
 use crate::film::Film;
+use crate::guiding::practice;
 use glam::{DAffine3, DMat4, DVec3, DVec4};
 use heliostat_scene::frame::Meta;
-use heliostat_scene::settings::{Caustics, DepthLimits, Filter, IntegratorKind, SamplerKind};
+use heliostat_scene::settings::{Caustics, DepthLimits, Filter, Guiding, IntegratorKind, SamplerKind};
 use heliostat_scene::{Camera, RenderSettings};
 use std::collections::BTreeMap;
 
@@ -41,6 +42,10 @@ pub(crate) fn meta(
     say("heliostat/seed", text(&settings.seed.to_string()));
     say("heliostat/sampler", text(sampler_name(settings.sampler)));
     say("heliostat/integrator", text(integrator_name(settings.integrator)));
+    if settings.integrator == IntegratorKind::Path && settings.guiding == Guiding::Learn {
+        say("heliostat/guiding", text("learn"));
+        say("heliostat/guidingPaths", int(practice(settings)));
+    }
     if settings.integrator.traces_paths() {
         say_biases(settings, &mut say);
     }

@@ -2,6 +2,7 @@
 
 use crate::bsdf::{Bsdf, BsdfSample, Event, Surroundings, View};
 use crate::counters::RayCounters;
+use crate::guiding::{Guide, Lead};
 use crate::horizon::Horizon;
 use crate::integrator::FirstHit;
 use crate::interiors::{Change, Interiors};
@@ -38,6 +39,8 @@ pub(crate) struct PathPoint<'a> {
     wo: Vec3,
     time: f32,
     view: View<'a>,
+    /// What leads paths on from here, beside the surface.
+    lead: Option<Lead<'a>>,
 }
 
 /// A way on from a point.
@@ -197,7 +200,29 @@ impl<'a> PathPoint<'a> {
             wo,
             time,
             view: bsdf.seen_from(wo),
+            lead: None,
         }
+    }
+
+    /// The same, led by what was learnt.
+    #[inline]
+    pub(crate) fn led(self, guide: Option<&'a Guide>) -> Self {
+        let lead = guide.and_then(|guide| guide.lead(self.surface.hit.at.p, self.view.breadth()));
+        Self { lead, ..self }
+    }
+
+    /// How much likelier what leads paths on has made a draw than the surface alone.
+    #[inline]
+    pub(crate) fn likelier(&self, sample: &BsdfSample) -> f32 {
+        match &self.lead {
+            Some(lead) if !sample.is_delta() => lead.likelier(self.frame.to_world(sample.wi), sample.pdf),
+            _ => 1.0,
+        }
+    }
+
+    /// What leads paths on from here, beside the surface.
+    pub(crate) fn lead(&self) -> Option<&Lead<'a>> {
+        self.lead.as_ref()
     }
 
     /// What the layers show.
@@ -236,14 +261,17 @@ impl<'a> PathPoint<'a> {
             return (Rgb::ZERO, 0.0);
         }
         let (value, pdf) = self.view.eval(wi);
-        (share * value, pdf)
+        match &self.lead {
+            Some(lead) if value != Rgb::ZERO => (share * value, lead.pdf(to_light, pdf)),
+            _ => (share * value, pdf),
+        }
     }
 
     /// The share of [`PathPoint::eval`] that is drawn as an [`Event::Diffuse`].
     pub(crate) fn matte(&self, to_light: Vec3) -> Rgb {
         let wi = self.frame.to_local(to_light);
-        let (value, pdf) = self.eval(to_light);
-        if pdf > 0.0 { self.view.matte_pdf(wi) / pdf * value } else { Rgb::ZERO }
+        let (value, pdf) = self.view.eval(wi);
+        if pdf > 0.0 { self.share(wi, to_light) * self.view.matte_pdf(wi) / pdf * value } else { Rgb::ZERO }
     }
 
     /// Whether any light is.
@@ -274,7 +302,10 @@ impl<'a> PathPoint<'a> {
     /// A way on for a path that carries so much, by random numbers for the layer and the direction; `None` where the light is lost.
     #[inline]
     pub(crate) fn sample(&self, passing: &PassingRay, carried: Rgb, layer: f32, u: Vec2) -> Option<Onward> {
-        let mut sample = self.view.sample(carried, layer, u)?;
+        let mut sample = match &self.lead {
+            None => self.view.sample(carried, layer, u)?,
+            Some(lead) => lead.sample(&self.view, &self.frame, carried, layer, u)?,
+        };
         let dir = self.frame.to_world(sample.wi);
         if sample.is_delta() {
             let onward = self.smooth_way(passing, sample, dir);

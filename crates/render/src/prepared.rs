@@ -1,8 +1,10 @@
 //! A scene made ready to be rendered, pass by pass.
 
 use crate::check::check;
+use crate::counters::RayCounters;
 use crate::error::RenderError;
 use crate::film::Film;
+use crate::guiding::{Course, Guide};
 use crate::integrator::{self, Integrator};
 use crate::photons;
 use crate::plan::Plan;
@@ -13,7 +15,7 @@ use crate::world::{TreeCache, World};
 use heliostat_scene::{Frame, RenderSettings, Scene};
 use std::ops::Range;
 use std::sync::atomic::Ordering;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// Stack of a thread without recursion, and per reflection or refraction in a row.
 const STACK: usize = 4 << 20;
@@ -44,6 +46,8 @@ pub struct Prepared<'s> {
     plan: Plan<'s>,
     world: World<'s>,
     integrator: Box<dyn Integrator + 's>,
+    /// What the integrator has learnt, once it has been asked.
+    guide: OnceLock<Option<Guide>>,
     pool: rayon::ThreadPool,
     stats: Mutex<RenderStats>,
 }
@@ -108,7 +112,7 @@ impl<'s> Prepared<'s> {
         plan.settings.caustic_radius =
             settings.caustic_radius.or_else(|| photons::first_radius(&world, settings));
         let stats = Mutex::new(RenderStats::prepared(&world, seconds));
-        Ok(Self { plan, world, integrator, pool, stats })
+        Ok(Self { plan, world, integrator, guide: OnceLock::new(), pool, stats })
     }
 
     /// An empty film for this picture.
@@ -126,18 +130,42 @@ impl<'s> Prepared<'s> {
     /// When the film was made for a picture with other pixels or layers.
     pub fn pass(&self, film: &mut Film, samples: Range<u32>, control: &Control<'_>) -> PassOutcome {
         self.plan.assert_fits(film);
-        let run = || match self.integrator.samples_at_once() {
-            None => schedule::run(&self.shooter(&*self.integrator), film, &samples, control),
-            Some(most) => self.run_in_turns(film, &samples, most, control),
+        let run = || {
+            let (guide, rays) = self.learn(control);
+            let led = guide.and_then(|guide| self.integrator.led(guide));
+            let integrator = led.as_deref().unwrap_or(&*self.integrator);
+            let (outcome, mut tally) = match integrator.samples_at_once() {
+                None => schedule::run(&self.shooter(integrator), film, &samples, control),
+                Some(most) => self.run_in_turns(integrator, film, &samples, most, control),
+            };
+            tally.rays += rays;
+            (outcome, tally)
         };
         let ((outcome, tally), seconds) = timed(|| self.pool.install(run));
         self.lock_stats().add(&tally, seconds);
         outcome
     }
 
+    /// What the integrator has learnt, and the rays that it took to learn it just now. Without it where the pass is cancelled, which
+    /// then adds nothing.
+    fn learn(&self, control: &Control<'_>) -> (Option<&Guide>, RayCounters) {
+        if let Some(guide) = self.guide.get() {
+            return (guide.as_ref(), RayCounters::default());
+        }
+        let size = [self.plan.settings.width, self.plan.settings.height];
+        let course = Course { camera: &self.plan.rays, size, cancel: control.cancel };
+        let learnt = self.integrator.learn(&self.world, &course);
+        if learnt.is_none() && control.cancel.load(Ordering::Relaxed) {
+            return (None, RayCounters::default());
+        }
+        let guide = self.guide.get_or_init(|| learnt).as_ref();
+        (guide, guide.map(Guide::rays).unwrap_or_default())
+    }
+
     /// Runs a pass by so many samples at a time, for which the integrator is made ready.
     fn run_in_turns(
         &self,
+        integrator: &dyn Integrator,
         film: &mut Film,
         samples: &Range<u32>,
         most: u32,
@@ -153,8 +181,8 @@ impl<'s> Prepared<'s> {
                 return (PassOutcome { finished: false, ..all.0 }, all.1);
             }
             let range = start..samples.end.min(start.saturating_add(most));
-            let ready = self.integrator.for_samples(&self.world, range.clone());
-            let integrator = ready.as_deref().unwrap_or(&*self.integrator);
+            let ready = integrator.for_samples(&self.world, range.clone());
+            let integrator = ready.as_deref().unwrap_or(integrator);
             let before = all.1.rays.total();
             let on_tile = |TileDone { done, total, rays }| {
                 (control.on_tile)(TileDone {

@@ -33,6 +33,8 @@ pub(crate) mod branch {
     pub(crate) const CAMERA: u32 = 2;
     /// Everything that happens to the ray.
     pub(crate) const INTEGRATOR: u32 = 3;
+    /// Where it is learnt what a path found.
+    pub(crate) const PRACTICE: u32 = 4;
 }
 
 /// The random numbers of a picture.
@@ -103,6 +105,13 @@ impl Sampler {
     pub(crate) fn of_photon(seed: u64, iteration: u32, photon: u32) -> Self {
         // No pixel is so far below.
         Self::new(seed, [iteration, u32::MAX], photon)
+    }
+
+    /// The numbers of a path that is followed for practice: stratified among the paths of its turn, and nothing to those of others and
+    /// to those of pixels.
+    pub(crate) fn of_practice(seed: u64, turn: u32, path: u32) -> Self {
+        // Nor so far below.
+        Self::new(seed, [turn, u32::MAX - 1], path)
     }
 
     /// Index of the sample within the pixel.

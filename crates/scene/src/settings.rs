@@ -94,6 +94,17 @@ pub enum Caustics {
     Photons,
 }
 
+/// Whether paths learn where light comes from before they are counted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Guiding {
+    /// They go where surfaces send them.
+    #[default]
+    None,
+    /// They practise on the whole picture first: the same picture, with less noise where light comes by narrow ways. Of
+    /// [`IntegratorKind::Path`] alone.
+    Learn,
+}
+
 /// How the random numbers of pixels stand to each other. A pixel is equally good by itself either way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum SamplerKind {
@@ -233,6 +244,11 @@ pub struct RenderSettings {
     /// How far around a point photons count at the first sample, in metres, above 0; by the size of what is clear and mirrors
     /// if `None`. It shrinks with the samples.
     pub caustic_radius: Option<f32>,
+    /// Whether paths learn where light comes from.
+    pub guiding: Guiding,
+    /// Paths that are followed for practice, from 1 to [`Self::MOST_GUIDING_PATHS`], where guiding is asked for; an eighth of the camera
+    /// rays of the picture, as far as `samples` says, if `None`.
+    pub guiding_paths: Option<u32>,
     /// Which of many lights paths ask.
     pub light_choice: LightChoice,
     /// Rays per point of the `ambient_occlusion` integrator.
@@ -275,6 +291,8 @@ impl Default for RenderSettings {
             caustics: Caustics::Paths,
             caustic_photons: Self::CAUSTIC_PHOTONS,
             caustic_radius: None,
+            guiding: Guiding::None,
+            guiding_paths: None,
             light_choice: LightChoice::Tree,
             ao_samples: 16,
             ao_distance: f32::INFINITY,
@@ -296,6 +314,9 @@ impl RenderSettings {
 
     /// The most photons for each sample: 2^24, about a gigabyte of them.
     pub const MOST_PHOTONS: u32 = 1 << 24;
+
+    /// The most paths for practice: 2^28.
+    pub const MOST_GUIDING_PATHS: u32 = 1 << 28;
 
     /// The most samples of a pixel where nobody says otherwise.
     pub const MAX_SAMPLES: u32 = 16_384;

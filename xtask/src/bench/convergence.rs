@@ -14,6 +14,8 @@ use std::path::{Path, PathBuf};
 const FOLDER: &str = "out/convergence";
 /// How much more samples a reference has than the last point of a curve.
 const REFERENCE: u32 = 16;
+/// Stands for `path` that learns where light comes from; what it takes to learn is counted.
+const GUIDED: &str = "path_guided";
 /// The random numbers of references, unlike those of the curves, which have seed 0 and above.
 const OTHER_SEED: u32 = 1_000_003;
 
@@ -21,10 +23,10 @@ const OTHER_SEED: u32 = 1_000_003;
 #[derive(Debug, Args)]
 pub(crate) struct Flags {
     /// Scenes to render
-    #[arg(default_values = ["scenes/path_sky.toml", "scenes/standard.toml", "scenes/path_cornell.toml"])]
+    #[arg(default_values = ["scenes/path_sky.toml", "scenes/standard.toml", "scenes/path_cornell.toml", "scenes/guiding.toml"])]
     scenes: Vec<String>,
-    /// Integrators
-    #[arg(long, value_delimiter = ',', default_values = ["direct", "path_simple", "path"])]
+    /// Integrators; `path_guided` is `path` with guiding
+    #[arg(long, value_delimiter = ',', default_values = ["direct", "path_simple", "path", GUIDED])]
     integrators: Vec<String>,
     /// Samplers
     #[arg(long, value_delimiter = ',', default_values = ["white", "blue"])]
@@ -137,14 +139,17 @@ impl Bench<'_> {
     fn render(&self, job: &Job<'_>, path: &str) -> Result<f64, String> {
         let (samples, seed) = (job.samples.to_string(), job.seed.to_string());
         let sampler = format!("render.sampler={}", job.sampler);
+        let (integrator, guiding) = named(job.integrator);
         let stats = format!("{FOLDER}/stats.json");
         let mut command = self.heliostat.command(&["render", job.scene, "-o", path, "--exr-depth", "float"]);
         command.args(["--size", &self.flags.size, "--samples", &samples, "--seed", &seed]);
         command.args([
             "--integrator",
-            job.integrator,
+            integrator,
             "--set",
             &sampler,
+            "--set",
+            guiding,
             "--stats",
             &stats,
             "--progress",
@@ -164,6 +169,11 @@ impl Bench<'_> {
         let found: Value = serde_json::from_str(&text).map_err(|e| format!("compare: {e}"))?;
         number(&found["rmse"])
     }
+}
+
+/// The name that scene files have for an integrator, and whether it is guided.
+fn named(integrator: &str) -> (&str, &str) {
+    if integrator == GUIDED { ("path", "render.guiding=learn") } else { (integrator, "render.guiding=none") }
 }
 
 /// The integrator that says what is right for another: the same picture, found sooner.

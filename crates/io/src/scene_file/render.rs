@@ -24,6 +24,8 @@
 //! caustics = "paths"             # "photons": what mirrors and clear glass throw onto matte things, from the lamps; under "path"
 //! # caustic_photons = 100000     # photons for each sample
 //! # caustic_radius = 0.01        # metres around a point in which they count at first; by the size of the glass if left out
+//! guiding = "none"               # "learn": paths learn where light comes from before they are counted; under "path"
+//! # guiding_paths = 1000000      # paths for practice; an eighth of the camera rays if left out
 //! light_choice = "tree"          # which of many lights paths ask; "power", "uniform"
 //! ao_samples = 16                # rays per point of the integrator "ambient_occlusion"
 //! # ao_distance = 1              # their length in metres; without end if left out
@@ -39,7 +41,7 @@ use super::number::{Count, NonNegative, Positive, Whole};
 use crate::document::{Fault, Placed};
 use heliostat_scene::RenderSettings;
 use heliostat_scene::settings::{
-    Caustics, Filter, IntegratorKind, Layers, LightChoice, PixelRect, SamplerKind,
+    Caustics, Filter, Guiding, IntegratorKind, Layers, LightChoice, PixelRect, SamplerKind,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -99,6 +101,12 @@ pub struct RenderTable {
     /// How far around a point photons count at the first sample, in metres; it shrinks with the samples. By the size of what is
     /// clear and mirrors if left out.
     pub caustic_radius: Option<Placed<Positive>>,
+    /// Whether paths learn where light comes from before they are counted, under `path`: the same picture, with less noise where
+    /// light comes by narrow ways. `none` if left out.
+    pub guiding: Option<GuidingName>,
+    /// Paths that are followed for practice, over the whole picture; an eighth of its camera rays by `samples`, from 16384 to
+    /// 4194304, if left out.
+    pub guiding_paths: Option<Placed<Whole<1, 268_435_456>>>,
     /// Which of many lights the integrators of paths ask: the noise is another, the picture the same. `tree` if left out.
     pub light_choice: Option<LightChoiceName>,
     /// Rays per point of the integrator `ambient_occlusion`; 16 if left out.
@@ -203,6 +211,16 @@ pub enum CausticsName {
     Photons,
 }
 
+/// Whether paths learn where light comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum GuidingName {
+    /// They go where surfaces send them.
+    None,
+    /// By paths for practice.
+    Learn,
+}
+
 /// Which of many lights a point asks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -302,6 +320,8 @@ impl RenderTable {
                 .as_ref()
                 .map_or(normal.caustic_photons, |count| count.u32()),
             caustic_radius: self.caustic_radius.as_ref().map(|radius| radius.f32()),
+            guiding: self.guiding()?,
+            guiding_paths: self.guiding_paths.as_ref().map(|count| count.u32()),
             light_choice: self
                 .light_choice
                 .and_then(|name| counterpart(&LIGHT_CHOICES, name))
@@ -328,6 +348,17 @@ impl RenderTable {
                 .with_help("write caustics = \"photons\", or leave it out")
                 .or_at(span)),
             None => Ok(Caustics::Paths),
+        }
+    }
+
+    /// Whether paths learn; an error where something is said of practice that nobody asks for.
+    fn guiding(&self) -> Result<Guiding, Fault> {
+        match &self.guiding_paths {
+            _ if self.guiding == Some(GuidingName::Learn) => Ok(Guiding::Learn),
+            None => Ok(Guiding::None),
+            Some(paths) => Err(Fault::new("`guiding_paths` does nothing without guiding")
+                .with_help("write guiding = \"learn\", or leave it out")
+                .or_at(paths.span())),
         }
     }
 
@@ -359,6 +390,7 @@ impl RenderTable {
     /// Threads belong to the machine and the noise floor to the exposure: both are left out.
     pub fn from_settings(settings: &RenderSettings, camera: Option<&str>) -> Self {
         let photons = settings.caustics == Caustics::Photons;
+        let learns = settings.guiding == Guiding::Learn;
         let region = settings.region.and_then(|r| {
             let side = |v: u32| Whole::new(i64::from(v));
             Some([side(r.x0)?, side(r.y0)?, side(r.x1)?, side(r.y1)?].into())
@@ -396,6 +428,12 @@ impl RenderTable {
                 .caustic_radius
                 .filter(|_| photons)
                 .and_then(|radius| Positive::new(radius.into()))
+                .map(Placed::from),
+            guiding: Some(if learns { GuidingName::Learn } else { GuidingName::None }),
+            guiding_paths: settings
+                .guiding_paths
+                .filter(|_| learns)
+                .and_then(|paths| Whole::new(paths.into()))
                 .map(Placed::from),
             light_choice: counterpart_of(&LIGHT_CHOICES, settings.light_choice),
             ao_samples: Whole::new(settings.ao_samples.into()),

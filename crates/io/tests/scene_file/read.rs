@@ -9,7 +9,7 @@ use heliostat_io::scene_file::render::RenderTable;
 use heliostat_scene::camera::Projection;
 use heliostat_scene::light::LightKind;
 use heliostat_scene::settings::{
-    Caustics, DepthLimits, Filter, IntegratorKind, Layers, LightChoice, PixelRect, SamplerKind,
+    Caustics, DepthLimits, Filter, Guiding, IntegratorKind, Layers, LightChoice, PixelRect, SamplerKind,
 };
 use heliostat_scene::{RenderSettings, Scene};
 use std::collections::BTreeMap;
@@ -174,6 +174,8 @@ fn settings_survive_being_written_and_read() {
         caustic_photons: 77,
         caustic_radius: Some(0.25),
         mip_maps: false,
+        guiding: Guiding::Learn,
+        guiding_paths: Some(12_345),
         light_choice: LightChoice::Uniform,
         ao_samples: 5,
         ao_distance: 1.0e5,

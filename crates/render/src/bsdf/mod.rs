@@ -20,7 +20,7 @@ mod sheen;
 mod standard;
 mod table;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 pub(crate) use known::KnownBsdfs;
 pub(crate) use standard::view::View as StandardView;
@@ -201,6 +201,16 @@ impl View<'_> {
         match self {
             Self::Phong(phong, _) => phong.is_matte(),
             Self::Standard(view) => view.is_matte(),
+        }
+    }
+
+    /// How broadly it scatters, from 0 where mirrors and clear glass are all there is to 1 where all of it is matte: the mean width of
+    /// what [`Self::sample`] draws. A guess, of which nothing depends but noise.
+    #[inline]
+    pub(crate) fn breadth(&self) -> f32 {
+        match self {
+            Self::Phong(phong, _) => phong.breadth(),
+            Self::Standard(view) => view.breadth(),
         }
     }
 

@@ -97,6 +97,13 @@ impl PhongBsdf {
         self.odds[0] > 0.0
     }
 
+    /// See [`super::View::breadth`].
+    #[inline]
+    pub(crate) fn breadth(&self) -> f32 {
+        // The roughness of facets with a highlight of that width, as Walter et al. 2007 have it.
+        self.odds[0] + self.odds[1] * (2.0 / (self.shininess + 2.0)).sqrt().sqrt()
+    }
+
     pub(crate) fn albedo(&self) -> Rgb {
         self.diffuse + self.mirror + self.transparency
     }

@@ -33,6 +33,7 @@ pub use volpath::VolPath;
 pub use whitted::Whitted;
 
 use crate::counters::RayCounters;
+use crate::guiding::{Course, Guide};
 use crate::ray_cone::RayCone;
 use crate::sampler::Sampler;
 use crate::world::World;
@@ -104,6 +105,17 @@ pub trait Integrator: Sync {
         sampler: &mut Sampler,
         counters: &mut RayCounters,
     ) -> Sample;
+
+    /// What it learns of a scene before the first sample, by practice on the whole picture; `None` where that is nothing, or the
+    /// practice was cancelled.
+    fn learn(&self, _world: &World<'_>, _course: &Course<'_>) -> Option<Guide> {
+        None
+    }
+
+    /// The integrator, led by what it has learnt. `None` where it is this one.
+    fn led<'a>(&'a self, _guide: &'a Guide) -> Option<Box<dyn Integrator + 'a>> {
+        None
+    }
 
     /// How many samples in a row something has to be worked out for beforehand, at most; `None` where nothing has to be.
     fn samples_at_once(&self) -> Option<u32> {

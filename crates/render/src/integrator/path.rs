@@ -14,6 +14,7 @@ use super::roulette::survive;
 use super::{CameraRay, FirstHit, Integrator, Sample};
 use crate::bsdf::Event;
 use crate::counters::RayCounters;
+use crate::guiding::{Course, Guide, GuidingSettings, Trail, learn};
 use crate::interiors::Interiors;
 use crate::light::{self, Lookout};
 use crate::path_point::{Covering, Onward, PathPoint};
@@ -34,18 +35,21 @@ pub struct Path {
     clamp: f32,
     transparent_background: bool,
     photons: Option<PhotonSettings>,
+    guiding: Option<GuidingSettings>,
 }
 
-/// Paths of some samples, with photons where they are asked for.
+/// Paths of some samples, with photons and guided where that is asked for.
 struct Paths<'a> {
     path: &'a Path,
     photons: Option<&'a Photons>,
+    guide: Option<&'a Guide>,
 }
 
-/// Paths that hold the photons of their samples.
-struct WithPhotons<'a> {
+/// Paths that are guided, or hold the photons of their samples.
+struct Ready<'a> {
     path: &'a Path,
-    photons: Photons,
+    photons: Option<Photons>,
+    guide: Option<&'a Guide>,
 }
 
 /// A path on its way.
@@ -56,6 +60,8 @@ struct Way {
     around: Interiors,
     /// What radiance from here is multiplied by.
     weight: Rgb,
+    /// How much likelier guiding has made it than surfaces alone would have.
+    likelier: f32,
     /// Where light was scattered last, and with what density it was sent here; `None` where only camera, mirrors and glass
     /// are behind: what it sees, nobody has asked for.
     scattered: Option<(Lookout, f32)>,
@@ -84,12 +90,14 @@ enum Since {
 }
 
 /// What a path has found.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 struct Found {
     radiance: Rgb,
     /// Weight with which it left the scene where the background is to stay transparent.
     through: f32,
     first: Option<FirstHit>,
+    /// What it leaves behind, where it is followed for practice.
+    trail: Option<Trail>,
 }
 
 /// Scatterings so far.
@@ -110,12 +118,26 @@ impl Path {
             clamp: settings.clamp_indirect.unwrap_or(f32::INFINITY),
             transparent_background: settings.transparent_background,
             photons: PhotonSettings::of(settings),
+            guiding: GuidingSettings::of(settings),
         }
     }
 }
 
+impl Path {
+    /// The paths of some samples, guided if they are.
+    fn ready<'a>(
+        &'a self,
+        guide: Option<&'a Guide>,
+        world: &World<'_>,
+        samples: Range<u32>,
+    ) -> Option<Box<dyn Integrator + 'a>> {
+        let photons = Some(self.photons?.photons(world, samples)?);
+        Some(Box::new(Ready { path: self, photons, guide }))
+    }
+}
+
 impl Integrator for Path {
-    /// Without photons: a caustic is found by chance, or not.
+    /// Without photons, and not guided: a caustic is found by chance, or not.
     fn radiance(
         &self,
         world: &World<'_>,
@@ -123,7 +145,23 @@ impl Integrator for Path {
         sampler: &mut Sampler,
         counters: &mut RayCounters,
     ) -> Sample {
-        Paths { path: self, photons: None }.radiance(world, ray, sampler, counters)
+        Paths { path: self, photons: None, guide: None }.radiance(world, ray, sampler, counters)
+    }
+
+    fn learn(&self, world: &World<'_>, course: &Course<'_>) -> Option<Guide> {
+        // No photons are sent, but what would come as photons is left out.
+        let photons = self.photons.and_then(|photons| photons.photons(world, 0..0));
+        let follow = |ray: &CameraRay, sampler: &mut Sampler, guide: &Guide, counters: &mut RayCounters| {
+            let mut found = Found { trail: Some(Trail::default()), ..Found::default() };
+            let paths = Paths { path: self, photons: photons.as_ref(), guide: Some(guide) };
+            paths.find(world, ray, sampler, &mut found, counters);
+            (found.radiance, found.trail.unwrap_or_default())
+        };
+        learn(self.guiding?, course, &follow)
+    }
+
+    fn led<'a>(&'a self, guide: &'a Guide) -> Option<Box<dyn Integrator + 'a>> {
+        Some(Box::new(Ready { path: self, photons: None, guide: Some(guide) }))
     }
 
     fn samples_at_once(&self) -> Option<u32> {
@@ -131,12 +169,11 @@ impl Integrator for Path {
     }
 
     fn for_samples<'a>(&'a self, world: &World<'_>, samples: Range<u32>) -> Option<Box<dyn Integrator + 'a>> {
-        let photons = self.photons?.photons(world, samples)?;
-        Some(Box::new(WithPhotons { path: self, photons }))
+        self.ready(None, world, samples)
     }
 }
 
-impl Integrator for WithPhotons<'_> {
+impl Integrator for Ready<'_> {
     fn radiance(
         &self,
         world: &World<'_>,
@@ -144,7 +181,16 @@ impl Integrator for WithPhotons<'_> {
         sampler: &mut Sampler,
         counters: &mut RayCounters,
     ) -> Sample {
-        Paths { path: self.path, photons: Some(&self.photons) }.radiance(world, ray, sampler, counters)
+        let Self { path, photons, guide } = self;
+        Paths { path, photons: photons.as_ref(), guide: *guide }.radiance(world, ray, sampler, counters)
+    }
+
+    fn samples_at_once(&self) -> Option<u32> {
+        self.path.samples_at_once()
+    }
+
+    fn for_samples<'a>(&'a self, world: &World<'_>, samples: Range<u32>) -> Option<Box<dyn Integrator + 'a>> {
+        self.path.ready(self.guide, world, samples)
     }
 }
 
@@ -157,10 +203,24 @@ impl Paths<'_> {
         counters: &mut RayCounters,
     ) -> Sample {
         let mut found = Found::default();
+        self.find(world, ray, sampler, &mut found, counters);
+        Sample { radiance: found.radiance, alpha: 1.0 - found.through, first: found.first }
+    }
+
+    /// Follows a path to its end.
+    fn find(
+        &self,
+        world: &World<'_>,
+        ray: &CameraRay,
+        sampler: &Sampler,
+        found: &mut Found,
+        counters: &mut RayCounters,
+    ) {
         let mut way = Way {
             passing: PassingRay::free(ray.ray).with_cone(ray.cone),
             around: world.around(ray.ray.origin, ray.time),
             weight: Rgb::ONE,
+            likelier: 1.0,
             scattered: None,
             after: None,
             since_matte: Since::Never,
@@ -170,10 +230,9 @@ impl Paths<'_> {
             is_last: false,
         };
         let mut step = 0;
-        while self.follow(world, &mut way, sampler.fork(step), ray.time, &mut found, counters).is_continue() {
+        while self.follow(world, &mut way, sampler.fork(step), ray.time, found, counters).is_continue() {
             step += 1;
         }
-        Sample { radiance: found.radiance, alpha: 1.0 - found.through, first: found.first }
     }
 
     /// Follows a path to the next surface, adds what it finds there, and sends it on.
@@ -223,7 +282,8 @@ impl Paths<'_> {
             return ControlFlow::Break(());
         }
         let mut room = None;
-        let point = PathPoint::new(world, &covering, surface, dir, time, &way.around, &mut room);
+        let point =
+            PathPoint::new(world, &covering, surface, dir, time, &way.around, &mut room).led(self.guide);
         found.first.get_or_insert_with(|| point.first_hit(object, material));
 
         // Ask a light, and send the path on.
@@ -243,6 +303,9 @@ impl Paths<'_> {
         let Some(onward) = onward else { return ControlFlow::Break(()) };
         onward.count(counters);
         way.go_on(&onward, &point, &self.path.limits);
+        if let Some(trail) = &mut found.trail {
+            trail.add(&point, &onward, way.weight, found.radiance);
+        }
         way.roulette(&mut draws)
     }
 
@@ -336,6 +399,7 @@ impl Way {
         self.passing = onward.passing;
         self.around.change(&onward.change);
         self.weight *= sample.weight;
+        self.likelier *= point.likelier(sample);
         self.after = Some(sample.event);
         self.sight = self.sight.after(sample.is_delta());
         self.passed_only &= sample.event == Event::Transmission;
@@ -353,7 +417,8 @@ impl Way {
     /// Ends it by chance if it carries little.
     #[inline]
     fn roulette(&mut self, draws: &mut Sampler) -> ControlFlow<()> {
-        self.weight /= survive(self.weight, self.depth.total, draws)?;
+        // What is led to where the light is weighs little, and matters all the same.
+        self.weight /= survive(self.likelier * self.weight, self.depth.total, draws)?;
         ControlFlow::Continue(())
     }
 }

@@ -54,6 +54,8 @@ pub(super) const FLIPS: &[Flip] = &[
     ("RenderTable", "caustics", "", "caustics = 'photons'"),
     ("RenderTable", "caustic_photons", "caustics = 'photons'", "caustics = 'photons'\ncaustic_photons = 3"),
     ("RenderTable", "caustic_radius", "caustics = 'photons'", "caustics = 'photons'\ncaustic_radius = 3"),
+    ("RenderTable", "guiding", "", "guiding = 'learn'"),
+    ("RenderTable", "guiding_paths", "guiding = 'learn'", "guiding = 'learn'\nguiding_paths = 3"),
     ("RenderTable", "light_choice", "", "light_choice = 'power'"),
     ("RenderTable", "ao_samples", "", "ao_samples = 3"),
     ("RenderTable", "ao_distance", "", "ao_distance = 3"),

@@ -88,6 +88,15 @@ impl<'b> View<'b> {
         self.share(Way::Fibres) + self.share(Way::Up) + self.share(Way::Down) > 0.0
     }
 
+    /// See [`crate::bsdf::View::breadth`].
+    pub(crate) fn breadth(&self) -> f32 {
+        let roughness = |ggx: Option<&Ggx>| ggx.map_or(0.0, |ggx| ggx.mean_alpha().min(1.0).sqrt());
+        let coat = roughness(self.bsdf.cover.coat.as_ref().and_then(|coat| coat.ggx.as_ref()));
+        let facets = roughness(self.bsdf.base.ggx.as_ref());
+        let matte = self.share(Way::Fibres) + self.share(Way::Up) + self.share(Way::Down);
+        matte + self.share(Way::Coat) * coat + self.share(Way::Facets) * facets
+    }
+
     /// Whether anything from below is drawn.
     pub(crate) fn is_open(&self) -> bool {
         self.bsdf.base.passage != Passage::Closed || self.share(Way::Down) > 0.0

@@ -17,7 +17,7 @@ fn fewer(deep: usize, short: usize) -> usize {
 }
 
 /// A white surface that absorbs nothing: matte under a boundary of glass.
-fn white() -> StandardPoint {
+pub(crate) fn white() -> StandardPoint {
     StandardPoint {
         base_color: Rgb::ONE,
         diffuse_roughness: 0.0,
