@@ -7,8 +7,8 @@ use glam::{DVec3, Vec3};
 use heliostat_scene::Material;
 use heliostat_scene::material::Back;
 
-/// A body is inside out whose volume is below so many cubes of its diameter.
-const INSIDE_OUT: f64 = -1e-3;
+/// A body is inside out whose volume is below 0 by more than one so many parts of the cube of its diameter.
+const NEARLY_FLAT: f64 = 1000.0;
 
 /// Darkens the backs of what shines.
 pub(super) fn darken_backs(objects: &[ObjObject], materials: &mut [Material]) {
@@ -38,5 +38,5 @@ fn is_inside_out(object: &ObjObject, material: usize) -> bool {
         .map(|corners| corners.map(|p| p.as_dvec3() - middle))
         .map(|[a, b, c]: [DVec3; 3]| a.dot(b.cross(c)) / 6.0)
         .sum();
-    volume < INSIDE_OUT * (high - low).length().powi(3)
+    NEARLY_FLAT * volume < -(high - low).length().powi(3)
 }

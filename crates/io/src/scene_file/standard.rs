@@ -62,7 +62,7 @@ pub struct StandardTable {
     pub diffuse_roughness: Option<Texturable<Fraction>>,
     /// Share of metal; 0 if left out.
     pub metalness: Option<Texturable<Fraction>>,
-    /// Tint of metal at an angle of about 82 degrees, as OpenPBR has it; 1 if left out.
+    /// Tint of metal at an angle of about 82 degrees, as `OpenPBR` has it; 1 if left out.
     pub edge_color: Option<Texturable<Color>>,
     /// A measured metal by its name or its numbers, in place of `base_color` and `edge_color`: aluminium, brass, chromium, copper, gold, iron,
     /// mercury, platinum, silver or titanium.

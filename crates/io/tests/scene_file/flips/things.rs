@@ -149,6 +149,7 @@ pub(super) const FLIPS: &[Flip] = &[
     ),
     ("StandardTable", "thin_film", "thin_film = 0.1", "thin_film = { texture = 't', factor = 0.1 }"),
     ("StandardTable", "base_color", "base_color = 0.1", "base_color = { texture = 't', factor = 0.1 }"),
+    ("StandardTable", "edge_color", "edge_color = 0.1", "edge_color = { texture = 't', factor = 0.1 }"),
     (
         "StandardTable",
         "specular_color",
