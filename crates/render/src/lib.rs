@@ -95,6 +95,7 @@ pub mod schedule;
 mod shading;
 pub mod stats;
 mod texture_eval;
+mod track;
 pub mod world;
 mod world_sphere;
 

@@ -46,10 +46,10 @@ pub(crate) struct PathPoint<'a> {
 /// A way on from a point.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Onward {
-    /// The ray, and what it crosses.
-    pub(crate) passing: PassingRay,
-    /// What it runs through from here on.
-    pub(crate) change: Change,
+    /// Unit direction.
+    pub(crate) dir: Vec3,
+    /// Whether it leads to the viewer's side, and not through the surface.
+    is_back: bool,
     /// Whether it goes on as if there were nothing, so that lights are seen through the surface.
     pub(crate) is_straight: bool,
     /// How it was drawn; the weight is what the radiance from there is multiplied by.
@@ -288,7 +288,7 @@ impl<'a> PathPoint<'a> {
     /// Veach, "Robust Monte Carlo Methods for Light Transport Simulation", Stanford, 1997, sections 5.2 and 5.3.
     pub(crate) fn adjoint(&self, onward: &Onward, around: &Interiors) -> f32 {
         let Normals { view, ng, ns, enters, .. } = self.normals;
-        let dir = onward.passing.ray.dir.normalize();
+        let dir = onward.dir;
         let sizes = (dir.dot(ng) / view.dot(ng)).abs();
         let is_bent = onward.sample.wi.z < 0.0 && self.material.surface.encloses();
         if !is_bent {
@@ -301,28 +301,36 @@ impl<'a> PathPoint<'a> {
 
     /// A way on for a path that carries so much, by random numbers for the layer and the direction; `None` where the light is lost.
     #[inline]
-    pub(crate) fn sample(&self, passing: &PassingRay, carried: Rgb, layer: f32, u: Vec2) -> Option<Onward> {
+    pub(crate) fn sample(&self, carried: Rgb, layer: f32, u: Vec2) -> Option<Onward> {
         let mut sample = match &self.lead {
             None => self.view.sample(carried, layer, u)?,
             Some(lead) => lead.sample(&self.view, &self.frame, carried, layer, u)?,
         };
         let dir = self.frame.to_world(sample.wi);
         if sample.is_delta() {
-            let onward = self.smooth_way(passing, sample, dir);
-            let cone = passing.cone_at(self.surface);
-            return Some(Onward { passing: onward.passing.with_cone(cone), ..onward });
+            return Some(self.smooth_way(sample, dir));
         }
         sample.weight *= self.share(sample.wi, dir);
-        if sample.weight == Rgb::ZERO {
-            return None;
+        let is_lost = sample.weight == Rgb::ZERO;
+        (!is_lost).then_some(Onward { dir, is_back: sample.wi.z > 0.0, is_straight: false, sample })
+    }
+
+    /// Sends a ray that was met here, and what it runs through, the way on.
+    #[inline]
+    pub(crate) fn send(&self, onward: &Onward, passing: &mut PassingRay, around: &mut Interiors) {
+        let Onward { dir, is_back, sample, .. } = onward;
+        let (is_smooth, met) = (sample.is_delta(), passing.cone_at(self.surface));
+        let cone = if is_smooth { met } else { met.scattered(sample.pdf) };
+        match (is_back, is_smooth) {
+            (true, true) => passing.turn_back(self.surface, self.surface.hit.spawn(*dir)),
+            (true, false) if self.horizon.lifted => passing.start_free(self.horizon.start.spawn(*dir)),
+            (true, false) => passing.turn_back(self.surface, self.horizon.start.spawn(*dir)),
+            (false, _) => {
+                *passing = passing.behind(self.surface, *dir);
+                around.change(&self.change_behind());
+            }
         }
-        let onward = if sample.wi.z > 0.0 {
-            self.back(passing, sample, dir)
-        } else {
-            self.behind(passing, sample, dir)
-        };
-        let cone = passing.cone_at(self.surface).scattered(sample.pdf);
-        Some(Onward { passing: onward.passing.with_cone(cone), ..onward })
+        passing.cone = cone;
     }
 
     /// The shadow ray to a target in the unit direction `to_light`.
@@ -348,42 +356,27 @@ impl<'a> PathPoint<'a> {
     }
 
     /// The way of mirror and clear glass. A direction that a bent normal sent to the wrong side is folded back at the surface.
-    fn smooth_way(&self, passing: &PassingRay, sample: BsdfSample, dir: Vec3) -> Onward {
+    fn smooth_way(&self, sample: BsdfSample, dir: Vec3) -> Onward {
         if sample.wi == -self.wo {
-            let dir = -self.normals.view;
             let is_straight = self.material.surface.passes_straight();
-            return Onward { is_straight, ..self.behind(passing, sample, dir) };
+            return Onward { dir: -self.normals.view, is_back: false, is_straight, sample };
         }
-        let height = dir.dot(self.normals.ng);
-        let is_astray = (height > 0.0) != (sample.wi.z > 0.0);
+        let (height, is_back) = (dir.dot(self.normals.ng), sample.wi.z > 0.0);
+        let is_astray = (height > 0.0) != is_back;
         let dir = if is_astray { dir - 2.0 * height * self.normals.ng } else { dir };
-        if sample.wi.z < 0.0 {
-            return self.behind(passing, sample, dir);
-        }
-        let passing = passing.back(self.surface, self.surface.hit.spawn(dir));
-        Onward { passing, change: Change::None, is_straight: false, sample }
+        Onward { dir, is_back: sample.wi.z >= 0.0, is_straight: false, sample }
     }
 
-    /// A way to the viewer's side.
-    #[inline]
-    fn back(&self, passing: &PassingRay, sample: BsdfSample, dir: Vec3) -> Onward {
-        let ray = self.horizon.start.spawn(dir);
-        let passing =
-            if self.horizon.lifted { PassingRay::free(ray) } else { passing.back(self.surface, ray) };
-        Onward { passing, change: Change::None, is_straight: false, sample }
-    }
-
-    /// A way through the surface.
-    fn behind(&self, passing: &PassingRay, sample: BsdfSample, dir: Vec3) -> Onward {
+    /// What a way through the surface enters or leaves.
+    fn change_behind(&self) -> Change {
         let is_boundary = self.material.surface.encloses() || self.material.interior.is_some();
-        let change = match self.surface.thing() {
+        match self.surface.thing() {
             Some(thing) if self.normals.enters && is_boundary => {
                 Change::Enter(Inside::of(thing, self.material))
             }
             Some(thing) if !self.normals.enters => Change::Leave(thing),
             _ => Change::None,
-        };
-        Onward { passing: passing.behind(self.surface, dir), change, is_straight: false, sample }
+        }
     }
 }
 

@@ -55,7 +55,7 @@ impl Trail {
         if sample.is_delta() || self.steps.len() == MOST_STEPS {
             return;
         }
-        let dir = onward.passing.ray.dir.normalize();
+        let dir = onward.dir;
         self.steps.push(Step {
             p: point.lookout().p,
             dir,

@@ -9,18 +9,18 @@
 //! 1997.
 
 use super::first::on_light;
-use super::next_event::{from_lights, heuristic, left_of};
+use super::next_event::{from_lights, heuristic};
 use super::roulette::survive;
 use super::{CameraRay, FirstHit, Integrator, Sample};
 use crate::bsdf::Event;
 use crate::counters::RayCounters;
 use crate::guiding::{Course, Guide, GuidingSettings, Trail, learn};
-use crate::interiors::Interiors;
 use crate::light::{self, Lookout};
 use crate::path_point::{Covering, Onward, PathPoint};
 use crate::photons::{Bounces, PhotonMap, PhotonSettings, Photons};
 use crate::sampler::Sampler;
-use crate::world::{Eye, Owner, PassingRay, Sight, SurfaceHit, World};
+use crate::track::Track;
+use crate::world::{Eye, Owner, Sight, SurfaceHit, World};
 use heliostat_scene::settings::DepthLimits;
 use heliostat_scene::{RenderSettings, Rgb};
 use std::ops::{ControlFlow, Range};
@@ -55,9 +55,7 @@ struct Ready<'a> {
 /// A path on its way.
 #[derive(Clone, Copy, Debug)]
 struct Way {
-    passing: PassingRay,
-    /// What it runs through.
-    around: Interiors,
+    track: Track,
     /// What radiance from here is multiplied by.
     weight: Rgb,
     /// How much likelier guiding has made it than surfaces alone would have.
@@ -217,8 +215,7 @@ impl Paths<'_> {
         counters: &mut RayCounters,
     ) {
         let mut way = Way {
-            passing: PassingRay::free(ray.ray).with_cone(ray.cone),
-            around: world.around(ray.ray.origin, ray.time),
+            track: Track::from_camera(world, ray),
             weight: Rgb::ONE,
             likelier: 1.0,
             scattered: None,
@@ -246,11 +243,11 @@ impl Paths<'_> {
         counters: &mut RayCounters,
     ) -> ControlFlow<()> {
         // Find what the ray meets first.
-        let Some(surface) = &world.seen_inside(&way.passing, way.around.last(), time, way.eye()) else {
+        let Some(surface) = &way.track.seen(world, time, way.eye()) else {
             self.leave(world, way, found);
             return ControlFlow::Break(());
         };
-        let dir = way.passing.ray.dir;
+        let dir = way.track.dir();
         let (object, material) = match surface.owner {
             Owner::Object { index, material } => (index, material),
             Owner::Light(light) => {
@@ -267,7 +264,7 @@ impl Paths<'_> {
         let covering = Covering::new(world, surface, material);
         let opacity = covering.opacity();
         let is_hole = opacity < 1.0 && draws.fork(HOLES).next_1d() >= opacity;
-        if is_hole || covering.is_hidden(surface, &way.around) {
+        if is_hole || covering.is_hidden(surface, &way.track.around) {
             way.pass(&covering, surface, counters);
             return ControlFlow::Continue(());
         }
@@ -282,8 +279,8 @@ impl Paths<'_> {
             return ControlFlow::Break(());
         }
         let mut room = None;
-        let point =
-            PathPoint::new(world, &covering, surface, dir, time, &way.around, &mut room).led(self.guide);
+        let point = PathPoint::new(world, &covering, surface, dir, time, &way.track.around, &mut room)
+            .led(self.guide);
         found.first.get_or_insert_with(|| point.first_hit(object, material));
 
         // Ask a light, and send the path on.
@@ -291,15 +288,15 @@ impl Paths<'_> {
         if point.scatters() {
             let weight = |light: &light::LightSample, pdf: f32| heuristic(light.pdf, pdf);
             let by_chance = (choices.x, draws.next_2d());
-            let light =
-                way.weight * from_lights(world, &point, way.around.ruling(), by_chance, weight, counters);
+            let light = way.weight
+                * from_lights(world, &point, way.track.around.ruling(), by_chance, weight, counters);
             found.radiance += self.path.clamped(light, way.depth.total);
         }
         if let Some(map) = self.photons.and_then(|photons| photons.of(draws.sample())) {
             let light = way.weight * self.caustic(map, &point, surface, &way.depth);
             found.radiance += self.path.clamped(light, way.depth.total);
         }
-        let onward = point.sample(&way.passing, way.weight, choices.y, draws.next_2d());
+        let onward = point.sample(way.weight, choices.y, draws.next_2d());
         let Some(onward) = onward else { return ControlFlow::Break(()) };
         onward.count(counters);
         way.go_on(&onward, &point, &self.path.limits);
@@ -331,7 +328,7 @@ impl Paths<'_> {
             found.through = way.weight.element_sum() / 3.0;
             return;
         }
-        let (lights, dir) = (world.light_table(), way.passing.ray.dir.normalize());
+        let (lights, dir) = (world.light_table(), way.track.dir().normalize());
         let radiance = match &way.scattered {
             Some((from, pdf)) => lights.beyond(from, dir, |other| heuristic(*pdf, other)),
             None if way.passed_only => lights.seen(dir),
@@ -375,29 +372,22 @@ impl Way {
         Eye::of_path(self.sight, self.scattered.is_some())
     }
 
-    /// Weakens it by the glass that it came through: the one that it is in, or one that it leaves and was not known to be
-    /// in, because the camera stands in it, or one thing in another.
-    fn absorb(&mut self, left: Option<Rgb>, surface: &SurfaceHit) {
-        let absorption = self.around.ruling().map(|inside| inside.absorption).or(left);
-        if let Some(absorption) = absorption {
-            self.weight *= left_of(absorption, surface.hit.t * self.passing.ray.dir.length());
-        }
+    /// Weakens it by the glass that it came through.
+    fn absorb(&mut self, leaves: Option<Rgb>, surface: &SurfaceHit) {
+        self.weight *= self.track.left(leaves, surface);
     }
 
     /// Goes on as if there were no surface.
     fn pass(&mut self, covering: &Covering<'_>, surface: &SurfaceHit, counters: &mut RayCounters) {
         counters.refraction += 1;
-        let dir = self.passing.ray.dir;
         self.absorb(None, surface);
-        self.passing = self.passing.behind(surface, dir);
-        self.around.change(&covering.straight_change(surface, dir));
+        self.track.pass(covering, surface);
     }
 
     /// Sends it on.
     fn go_on(&mut self, onward: &Onward, point: &PathPoint<'_>, limits: &DepthLimits) {
         let sample = &onward.sample;
-        self.passing = onward.passing;
-        self.around.change(&onward.change);
+        self.track.take(onward, point);
         self.weight *= sample.weight;
         self.likelier *= point.likelier(sample);
         self.after = Some(sample.event);

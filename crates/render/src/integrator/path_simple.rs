@@ -13,15 +13,15 @@
 //! Kajiya, "The Rendering Equation", SIGGRAPH 1986.
 
 use super::first::on_light;
-use super::next_event::{from_lights, left_of};
+use super::next_event::from_lights;
 use super::{CameraRay, FirstHit, Integrator, Sample};
 use crate::bsdf::Event;
 use crate::counters::RayCounters;
-use crate::interiors::Interiors;
 use crate::light::{self, Lookout};
 use crate::path_point::{Covering, PathPoint};
 use crate::sampler::Sampler;
-use crate::world::{Eye, Owner, PassingRay, Sight, SurfaceHit, World};
+use crate::track::Track;
+use crate::world::{Eye, Owner, Sight, SurfaceHit, World};
 use heliostat_scene::{RenderSettings, Rgb};
 
 /// From so many scatterings on paths end by chance.
@@ -38,8 +38,7 @@ pub struct PathSimple {
 /// A ray on its way from the camera.
 #[derive(Clone, Copy, Debug)]
 struct Leg {
-    passing: PassingRay,
-    around: Interiors,
+    track: Track,
     /// Scatterings on the way here.
     depth: u32,
     /// From where lights were asked; `None` where nothing but mirrors and glass lies between here and the camera.
@@ -81,8 +80,7 @@ impl Integrator for PathSimple {
         let (first, is_through, time) = (None, false, ray.time);
         let mut walk = Walk { world, time, counters, transparent_background, first, is_through };
         let radiance = walk.radiance(Leg {
-            passing: PassingRay::free(ray.ray).with_cone(ray.cone),
-            around: world.around(ray.ray.origin, ray.time),
+            track: Track::from_camera(world, ray),
             depth: 0,
             asked: None,
             sight: Sight::Straight,
@@ -98,16 +96,16 @@ impl Walk<'_, '_> {
     /// The radiance that a leg sees.
     fn radiance(&mut self, mut leg: Leg) -> Rgb {
         let world = self.world;
-        let Some(surface) = &world.seen_inside(&leg.passing, leg.around.last(), self.time, leg.eye()) else {
+        let Some(surface) = &leg.track.seen(world, self.time, leg.eye()) else {
             return self.beyond(&leg);
         };
-        let dir = leg.passing.ray.dir;
+        let dir = leg.track.dir();
         let (object, material) = match surface.owner {
             Owner::Object { index, material } => (index, material),
             Owner::Light(light) => {
                 self.first.get_or_insert_with(|| on_light(surface, dir));
                 let shine = light::seen(&world.scene().lights[light as usize], surface.hit.at.ng, dir);
-                let left = leg.left(None, surface);
+                let left = leg.track.left(None, surface);
                 return if leg.has_asked_for(world, surface) { Rgb::ZERO } else { left * shine };
             }
         };
@@ -115,17 +113,16 @@ impl Walk<'_, '_> {
         // Holes let the ray through by chance.
         let covering = Covering::new(world, surface, material);
         let is_hole = leg.sampler.next_1d() >= covering.opacity();
-        if is_hole || covering.is_hidden(surface, &leg.around) {
+        if is_hole || covering.is_hidden(surface, &leg.track.around) {
             self.counters.refraction += 1;
-            let left = leg.left(None, surface);
-            let passing = leg.passing.behind(surface, dir);
-            leg.around.change(&covering.straight_change(surface, dir));
-            return left * self.radiance(Leg { passing, sampler: leg.sampler.fork(0), ..leg });
+            let left = leg.track.left(None, surface);
+            leg.track.pass(&covering, surface);
+            return left * self.radiance(Leg { sampler: leg.sampler.fork(0), ..leg });
         }
         let mut room = None;
-        let point = PathPoint::new(world, &covering, surface, dir, self.time, &leg.around, &mut room);
+        let point = PathPoint::new(world, &covering, surface, dir, self.time, &leg.track.around, &mut room);
         self.first.get_or_insert_with(|| point.first_hit(object, material));
-        let left = leg.left(covering.left_absorption(surface, dir), surface);
+        let left = leg.track.left(covering.left_absorption(surface, dir), surface);
 
         let mut sum = Rgb::ZERO;
         if !leg.has_asked_for(world, surface) {
@@ -136,7 +133,7 @@ impl Walk<'_, '_> {
         }
         let by_chance = (leg.sampler.next_1d(), leg.sampler.next_2d());
         let unmet = |light: &light::LightSample, _: f32| f32::from(u8::from(light.pdf == f32::INFINITY));
-        sum += from_lights(world, &point, leg.around.ruling(), by_chance, unmet, self.counters);
+        sum += from_lights(world, &point, leg.track.around.ruling(), by_chance, unmet, self.counters);
         sum += self.sent_on(&point, leg);
         left * sum
     }
@@ -144,19 +141,18 @@ impl Walk<'_, '_> {
     /// What a point sends on of the light from a direction that it draws.
     fn sent_on(&mut self, point: &PathPoint<'_>, mut leg: Leg) -> Rgb {
         let (layer, u) = (leg.sampler.next_1d(), leg.sampler.next_2d());
-        let Some(onward) = point.sample(&leg.passing, Rgb::ONE, layer, u) else { return Rgb::ZERO };
+        let Some(onward) = point.sample(Rgb::ONE, layer, u) else { return Rgb::ZERO };
         let weight = onward.sample.weight;
         let survives = if leg.depth < CERTAIN { 1.0 } else { weight.max_element().min(0.9) };
         if leg.depth == MOST || leg.sampler.next_1d() >= survives {
             return Rgb::ZERO;
         }
         onward.count(self.counters);
-        let mut around = leg.around;
-        around.change(&onward.change);
+        let mut track = leg.track;
+        track.take(&onward, point);
         let asked = if onward.sample.is_delta() { None } else { Some(point.lookout()) };
         let radiance = self.radiance(Leg {
-            passing: onward.passing,
-            around,
+            track,
             depth: leg.depth + 1,
             asked: if onward.is_straight { leg.asked } else { asked },
             sight: leg.sight.after(onward.sample.is_delta()),
@@ -173,7 +169,7 @@ impl Walk<'_, '_> {
             self.is_through = true;
             return Rgb::ZERO;
         }
-        let (lights, dir) = (self.world.light_table(), leg.passing.ray.dir.normalize());
+        let (lights, dir) = (self.world.light_table(), leg.track.dir().normalize());
         match &leg.asked {
             Some(from) => lights.beyond(from, dir, |_| 1.0),
             None if leg.passed_only => lights.seen(dir),
@@ -183,13 +179,6 @@ impl Walk<'_, '_> {
 }
 
 impl Leg {
-    /// The share of light that is left of the way to a surface: what it runs through absorbs, or what it leaves and was not known
-    /// to be in.
-    fn left(&self, left: Option<Rgb>, surface: &SurfaceHit) -> Rgb {
-        let absorption = self.around.ruling().map(|inside| inside.absorption).or(left);
-        left_of(absorption.unwrap_or(Rgb::ZERO), surface.hit.t * self.passing.ray.dir.length())
-    }
-
     /// Who looks along it.
     fn eye(&self) -> Eye {
         Eye::of_path(self.sight, self.asked.is_some())

@@ -8,12 +8,12 @@
 
 use super::map::{Bounces, Photon};
 use crate::bsdf::Event;
-use crate::integrator::{HOLES, left_of, survive};
-use crate::interiors::Interiors;
+use crate::integrator::{HOLES, survive};
 use crate::light::emission::Emitted;
 use crate::path_point::{Covering, PathPoint};
 use crate::sampler::Sampler;
-use crate::world::{Eye, Owner, PassingRay, SurfaceHit, World};
+use crate::track::Track;
+use crate::world::{Eye, Owner, SurfaceHit, World};
 use heliostat_scene::Rgb;
 use std::ops::ControlFlow;
 
@@ -21,8 +21,7 @@ use std::ops::ControlFlow;
 pub(super) struct Flight<'w, 's> {
     world: &'w World<'s>,
     time: f32,
-    passing: PassingRay,
-    around: Interiors,
+    track: Track,
     /// When it began.
     flux: Rgb,
     /// What is left of it.
@@ -37,8 +36,7 @@ impl<'w, 's> Flight<'w, 's> {
         Self {
             world,
             time,
-            passing: PassingRay::free(emitted.ray),
-            around: world.around(emitted.ray.origin, time),
+            track: Track::free(world, emitted.ray, time),
             flux: emitted.flux,
             weight: Rgb::ONE,
             bounces: Bounces::default(),
@@ -57,23 +55,23 @@ impl<'w, 's> Flight<'w, 's> {
     /// Follows it to the next surface.
     fn follow(&mut self, mut draws: Sampler, photons: &mut Vec<Photon>) -> ControlFlow<()> {
         let world = self.world;
-        let seen = world.seen_inside(&self.passing, self.around.last(), self.time, Eye::Any);
+        let seen = self.track.seen(world, self.time, Eye::Any);
         let Some(surface) = &seen else { return ControlFlow::Break(()) };
         let Owner::Object { index, material } = surface.owner else { return ControlFlow::Break(()) };
-        let dir = self.passing.ray.dir;
+        let dir = self.track.dir();
 
         // Go on where there is no surface.
         let covering = Covering::new(world, surface, material);
         let opacity = covering.opacity();
         let is_hole = opacity < 1.0 && draws.fork(HOLES).next_1d() >= opacity;
-        if is_hole || covering.is_hidden(surface, &self.around) {
+        if is_hole || covering.is_hidden(surface, &self.track.around) {
             self.pass(&covering, surface);
             return ControlFlow::Continue(());
         }
 
         // Stay on what scatters.
         self.absorb(covering.left_absorption(surface, dir), surface);
-        let (mut room, around) = (None, self.around);
+        let (mut room, around) = (None, self.track.around);
         let point = PathPoint::new(world, &covering, surface, dir, self.time, &around, &mut room);
         if self.is_caustic && point.is_matte() {
             let at = surface.hit.at;
@@ -83,41 +81,31 @@ impl<'w, 's> Flight<'w, 's> {
         }
         // What casts no shadow takes light, and lets it go on.
         if !world.scene().objects[index as usize].casts_shadow {
-            self.go_behind(&covering, surface);
+            self.track.pass(&covering, surface);
             return ControlFlow::Continue(());
         }
 
         // Go on by mirror and clear glass alone.
         let choice = draws.next_2d();
-        let onward = point.sample(&self.passing, self.weight * self.flux, choice.y, draws.next_2d());
+        let onward = point.sample(self.weight * self.flux, choice.y, draws.next_2d());
         let smooth = onward.filter(|way| way.sample.is_delta() && way.sample.event != Event::Subsurface);
         let Some(onward) = smooth else { return ControlFlow::Break(()) };
         self.weight *= point.adjoint(&onward, &around) * onward.sample.weight;
         self.is_caustic |= !onward.is_straight;
         self.bounces.count(onward.sample.event);
-        self.passing = onward.passing;
-        self.around.change(&onward.change);
+        self.track.take(&onward, &point);
         self.roulette(&mut draws)
     }
 
     /// Weakens it by the glass that it came through.
-    fn absorb(&mut self, left: Option<Rgb>, surface: &SurfaceHit) {
-        let absorption = self.around.ruling().map(|inside| inside.absorption).or(left);
-        if let Some(absorption) = absorption {
-            self.weight *= left_of(absorption, surface.hit.t * self.passing.ray.dir.length());
-        }
+    fn absorb(&mut self, leaves: Option<Rgb>, surface: &SurfaceHit) {
+        self.weight *= self.track.left(leaves, surface);
     }
 
     /// Goes on as if there were no surface.
     fn pass(&mut self, covering: &Covering<'_>, surface: &SurfaceHit) {
         self.absorb(None, surface);
-        self.go_behind(covering, surface);
-    }
-
-    fn go_behind(&mut self, covering: &Covering<'_>, surface: &SurfaceHit) {
-        let dir = self.passing.ray.dir;
-        self.passing = self.passing.behind(surface, dir);
-        self.around.change(&covering.straight_change(surface, dir));
+        self.track.pass(covering, surface);
     }
 
     /// Ends it by chance if little is left of it, as paths are ended.

@@ -113,14 +113,21 @@ impl PassingRay {
         Self { ray: Ray::new(origin, dir), crossing: Some(crossing), cone }
     }
 
-    /// `ray`, which returns from a hit that `self` found: what was crossed in its place is met again.
+    /// Becomes `ray`, which returns from a hit that it found, with the same cone: what was crossed in its place is met again.
     #[inline]
-    pub(crate) fn back(&self, hit: &SurfaceHit, ray: Ray) -> Self {
+    pub(crate) fn turn_back(&mut self, hit: &SurfaceHit, ray: Ray) {
         match &self.crossing {
-            Some(crossing) if crossing.is_at(&hit.hit.at) => Self::free(ray).behind(hit, ray.dir),
-            _ => Self::free(ray),
+            Some(crossing) if crossing.is_at(&hit.hit.at) => {
+                *self = Self::free(ray).behind(hit, ray.dir).with_cone(self.cone);
+            }
+            _ => self.start_free(ray),
         }
-        .with_cone(self.cone_at(hit))
+    }
+
+    /// Becomes `ray`, which starts in free space, with the same cone.
+    #[inline]
+    pub(crate) fn start_free(&mut self, ray: Ray) {
+        (self.ray, self.crossing) = (ray, None);
     }
 
     /// The ray with which a thing is asked: `range` of the search so far, the origin behind things that are crossed. In `room`

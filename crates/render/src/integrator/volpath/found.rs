@@ -49,7 +49,7 @@ impl VolPath {
             found.through = weight.element_sum() / 3.0;
             return;
         }
-        let (lights, dir) = (world.light_table(), way.passing.ray.dir.normalize());
+        let (lights, dir) = (world.light_table(), way.track.dir().normalize());
         let (own, asked) = way.chances();
         let radiance = match &way.scattered {
             Some((from, pdf)) => lights.beyond(from, dir, |other| heuristic(pdf * own, other * asked)),

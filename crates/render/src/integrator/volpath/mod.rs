@@ -26,6 +26,7 @@ use crate::counters::RayCounters;
 use crate::light::{self, Lookout};
 use crate::path_point::{Covering, PathPoint};
 use crate::sampler::Sampler;
+use crate::track::Track;
 use crate::world::{Owner, PassingRay, SurfaceHit, World};
 use beside::Stretch;
 use found::Found;
@@ -80,8 +81,7 @@ impl Integrator for VolPath {
         counters: &mut RayCounters,
     ) -> Sample {
         let mut found = Found::default();
-        let mut way =
-            Way::new(PassingRay::free(ray.ray).with_cone(ray.cone), world.around(ray.ray.origin, ray.time));
+        let mut way = Way::new(Track::from_camera(world, ray));
         for number in 0.. {
             let mut step = Step { world, time: ray.time, draws: sampler.fork(number), counters };
             if self.follow(&mut step, &mut way, &mut found).is_break() {
@@ -96,12 +96,12 @@ impl VolPath {
     /// Follows a path to where it is scattered next, adds what it finds there, and sends it on.
     fn follow(&self, step: &mut Step<'_, '_, '_>, way: &mut Way, found: &mut Found) -> ControlFlow<()> {
         let (world, time) = (step.world, step.time);
-        let seen = world.seen_inside(&way.passing, way.around.last(), time, way.eye());
+        let seen = way.track.seen(world, time, way.eye());
         if seen.is_none() {
             // Where nothing is met, bodies that end somewhere were left unnoticed.
-            way.around.retain(|inside| !world.bounds_of(inside.thing).is_finite());
+            way.track.around.retain(|inside| !world.bounds_of(inside.thing).is_finite());
         }
-        if let Some(matter) = world.matter(&way.around) {
+        if let Some(matter) = world.matter(&way.track.around) {
             let end = seen.map_or(f32::INFINITY, |surface| surface.hit.t);
             if let Some(through) = way.through(&matter, end) {
                 let stretch = Stretch::new(world, matter.medium, through);
@@ -114,7 +114,7 @@ impl VolPath {
             self.leave(world, way, found);
             return ControlFlow::Break(());
         };
-        let dir = way.passing.ray.dir;
+        let dir = way.track.dir();
         let (object, material) = match surface.owner {
             Owner::Object { index, material } => (index, material),
             Owner::Light(light) => {
@@ -130,7 +130,7 @@ impl VolPath {
         let covering = Covering::new(world, surface, material);
         let opacity = covering.opacity();
         let is_hole = opacity < 1.0 && step.draws.fork(HOLES).next_1d() >= opacity;
-        if is_hole || covering.is_hidden(surface, &way.around) {
+        if is_hole || covering.is_hidden(surface, &way.track.around) {
             step.counters.refraction += 1;
             way.pass(&covering, surface);
             return ControlFlow::Continue(());
@@ -146,7 +146,7 @@ impl VolPath {
             return ControlFlow::Break(());
         }
         let mut room = None;
-        let around = way.around;
+        let around = way.track.around;
         let point = PathPoint::new(world, &covering, surface, dir, time, &around, &mut room);
         found.first.get_or_insert_with(|| point.first_hit(object, material));
         self.scatter_at(step, way, &covering, &point, surface, found)
@@ -165,7 +165,7 @@ impl VolPath {
         let choice = step.draws.next_2d();
         self.add_asked(step, way, point, choice.x, found);
         let u = step.draws.next_2d();
-        let onward = point.sample(&way.passing, way.settled(), choice.y, u);
+        let onward = point.sample(way.settled(), choice.y, u);
         let Some(onward) = onward else { return ControlFlow::Break(()) };
         if onward.sample.event == Event::Subsurface {
             let carried = way.settled() * onward.sample.weight;
@@ -173,7 +173,9 @@ impl VolPath {
                 return ControlFlow::Break(());
             };
             let walk = Walk { world: step.world, thing, medium: &medium, time: step.time };
-            let come_out = walk.follow(onward.passing, carried, &mut step.draws.fork(WALK));
+            let mut inside = way.track;
+            inside.take(&onward, point);
+            let come_out = walk.follow(inside.passing, carried, &mut step.draws.fork(WALK));
             let Some((exit, carried)) = come_out else { return ControlFlow::Break(()) };
             way.settle(carried);
             return self.come_out(step, way, &exit, found);
@@ -199,10 +201,10 @@ impl VolPath {
         let choice = step.draws.next_2d();
         self.add_asked(step, way, &point, choice.x, found);
         let u = step.draws.next_2d();
-        let inner = PassingRay::free(way.passing.ray);
-        let onward = point.sample(&inner, way.settled(), choice.y, u);
+        let onward = point.sample(way.settled(), choice.y, u);
         let Some(onward) = onward else { return ControlFlow::Break(()) };
         onward.count(step.counters);
+        way.track.passing = PassingRay::free(way.track.passing.ray);
         way.go_on(&onward, &point, &self.limits);
         way.roulette(&mut step.draws)
     }
@@ -226,7 +228,7 @@ impl VolPath {
         let (value, pdf) = point.eval(light.to_light);
         let ray = point.shadow_ray(light.to_light, &light.target);
         let ask = Ask { light: &light, ray, carried: way.settled() * value, pdf };
-        found.radiance += self.clamped(ask.answer(step, &way.around), way.depth.all());
+        found.radiance += self.clamped(ask.answer(step, &way.track.around), way.depth.all());
     }
 
     /// Flies through a medium: the distance at which the path is scattered, `None` where it gets through.
@@ -238,7 +240,7 @@ impl VolPath {
         found: &mut Found,
     ) -> Option<f32> {
         if stretch.asks_lamps && !way.is_last {
-            let glow = stretch.glow(step, way.settled(), &way.around);
+            let glow = stretch.glow(step, way.settled(), &way.track.around);
             found.radiance += self.clamped(glow, way.depth.all());
         }
         way.fly(stretch.medium, &stretch.way, &mut step.draws.fork(FLIGHT))
@@ -254,7 +256,7 @@ impl VolPath {
         found: &mut Found,
     ) -> ControlFlow<()> {
         if way.passed_only && found.first.is_none() {
-            found.first = first_from(step.world, way.passing, step.time).map(|(_, first)| first);
+            found.first = first_from(step.world, way.track.passing, step.time).map(|(_, first)| first);
         }
         way.settle(way.settled());
         if way.is_last || !way.weight.is_finite() {
@@ -269,7 +271,7 @@ impl VolPath {
             let pdf = phase.density(dir, light.to_light);
             let left = if stretch.asks_lamps { stretch.left(step, lamp, t) } else { 1.0 };
             let ask = Ask { light: &light, ray: ray_to(p, &light), carried: left * pdf * way.weight, pdf };
-            found.radiance += self.clamped(ask.answer(step, &way.around), way.depth.all());
+            found.radiance += self.clamped(ask.answer(step, &way.track.around), way.depth.all());
         }
         let (to, pdf) = phase.sample(dir, step.draws.next_2d());
         way.scattered_by_medium(from, PassingRay::free(Ray::new(p, to)), pdf, &self.limits);

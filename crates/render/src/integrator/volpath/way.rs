@@ -1,15 +1,14 @@
 //! A path on its way through surfaces and media.
 
 use crate::bsdf::Event;
-use crate::integrator::next_event::left_of;
 use crate::integrator::path::Depth;
 use crate::integrator::roulette::survive;
-use crate::interiors::Interiors;
 use crate::light::Lookout;
 use crate::medium::lead::Lead;
 use crate::medium::{PreparedMedium, flight};
 use crate::path_point::{Covering, Onward, PathPoint};
 use crate::sampler::Sampler;
+use crate::track::Track;
 use crate::world::{Eye, Matter, PassingRay, Sight, SurfaceHit};
 use heliostat_scene::Rgb;
 use heliostat_scene::settings::DepthLimits;
@@ -18,9 +17,7 @@ use std::ops::ControlFlow;
 /// A path on its way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Way {
-    pub(super) passing: PassingRay,
-    /// What it runs through.
-    pub(super) around: Interiors,
+    pub(super) track: Track,
     /// What radiance from here is multiplied by, over the chances of the flight.
     pub(super) weight: Rgb,
     /// The flight since the last scattering, where there was a medium on it.
@@ -41,10 +38,9 @@ pub(super) struct Way {
 
 impl Way {
     /// From the camera.
-    pub(super) fn new(passing: PassingRay, around: Interiors) -> Self {
+    pub(super) fn new(track: Track) -> Self {
         Self {
-            passing,
-            around,
+            track,
             weight: Rgb::ONE,
             lead: None,
             scattered: None,
@@ -63,7 +59,7 @@ impl Way {
 
     /// Its way through a medium up to `end` lengths of the ray; `None` where the medium has ended before.
     pub(super) fn through(&self, matter: &Matter<'_, '_>, end: f32) -> Option<flight::Way> {
-        let ray = self.passing.ray;
+        let ray = self.track.passing.ray;
         let length = ray.dir.length();
         let (dir, from, to) = (ray.dir / length, 0.0, end * length);
         let way = matter.clip(flight::Way { origin: ray.origin, dir, from, to });
@@ -101,21 +97,15 @@ impl Way {
         self.lead = None;
     }
 
-    /// Weakens it by the glass that it came through: the one that it is in, or one that it leaves and was not known to be
-    /// in, because the camera stands in it.
-    pub(super) fn absorb(&mut self, left: Option<Rgb>, surface: &SurfaceHit) {
-        let absorption = self.around.ruling().map(|inside| inside.absorption).or(left);
-        if let Some(absorption) = absorption {
-            self.weight *= left_of(absorption, surface.hit.t * self.passing.ray.dir.length());
-        }
+    /// Weakens it by the glass that it came through.
+    pub(super) fn absorb(&mut self, leaves: Option<Rgb>, surface: &SurfaceHit) {
+        self.weight *= self.track.left(leaves, surface);
     }
 
     /// Goes on as if there were no surface.
     pub(super) fn pass(&mut self, covering: &Covering<'_>, surface: &SurfaceHit) {
-        let dir = self.passing.ray.dir;
         self.absorb(None, surface);
-        self.passing = self.passing.behind(surface, dir);
-        self.around.change(&covering.straight_change(surface, dir));
+        self.track.pass(covering, surface);
     }
 
     /// Sends it on from a surface.
@@ -125,8 +115,7 @@ impl Way {
             self.settle(self.settled());
             self.scattered = if sample.is_delta() { None } else { Some((point.lookout(), sample.pdf)) };
         }
-        self.passing = onward.passing;
-        self.around.change(&onward.change);
+        self.track.take(onward, point);
         self.weight *= sample.weight;
         self.after = Some(sample.event);
         self.sight = self.sight.after(sample.is_delta());
@@ -142,7 +131,7 @@ impl Way {
         pdf: f32,
         limits: &DepthLimits,
     ) {
-        self.passing = passing;
+        self.track.passing = passing;
         self.scattered = Some((from, pdf));
         // Surfaces that light nothing do not light media either.
         self.after = Some(Event::Diffuse);
