@@ -1,6 +1,7 @@
 """Whether Heliostat agrees with Mitsuba 3 and Cycles: means of every channel, and a Z-test in every pixel; and which has the less noise for its time.
 
-    python agree.py HELIOSTAT [--scene NAME] [--runs 16] [--samples 64] [--size 128] [--mesh OBJ] [--cycles PYTHON] [--out FOLDER]
+    python agree.py HELIOSTAT [--scene NAME] [--runs 16] [--samples 64] [--size 128] [--mesh OBJ] [--cycles PYTHON]
+        [--set KEY=VALUE] [--out FOLDER]
 
 All render each scene so many times with seeds of their own. The mean over the runs has a variance that the runs tell
 themselves; pixels agree where Welch's test says so at 1 % for the whole picture (Sidak's correction), as Mitsuba's own tests
@@ -26,6 +27,7 @@ ARGS.add_argument("--size", type=int, default=128)
 ARGS.add_argument("--mesh")
 ARGS.add_argument("--integrator", default="path")
 ARGS.add_argument("--threads", type=int, default=2)
+ARGS.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="a setting of ours, as for heliostat render")
 ARGS.add_argument("--cycles", help="a Python that has bpy")
 ARGS.add_argument("--variant", default="llvm_ad_rgb")
 ARGS.add_argument("--out", default="out/agree")
@@ -71,7 +73,7 @@ def ours(name, scene):
     """What renders the scene once with a seed: gives the picture and the seconds it took."""
     file, result = out / f"{name}.toml", out / f"{name}.exr"
     command = [args.heliostat, "render", str(file), "-o", str(result), "--exr-depth", "float", "--progress", "none"]
-    command += ["--threads", str(args.threads)]
+    command += ["--threads", str(args.threads), *(word for pair in args.set for word in ["--set", pair])]
 
     def render(seed):
         file.write_text(to_toml(scene, size, args.samples, seed, args.integrator))
