@@ -11,7 +11,7 @@ use glam::Vec2;
 /// A square is divided where it holds more than this share of all.
 const LARGEST_SHARE: f32 = 0.02;
 /// And light was found in it so often: what few paths have found by chance is no reason to look nowhere else.
-const LEAST_HITS: f32 = 8.0;
+const LEAST_HITS: f32 = 3.0;
 /// So often, at most.
 const MOST_DEPTH: u32 = 14;
 /// Nodes of a tree, at most.
