@@ -33,8 +33,6 @@ pub(crate) mod branch {
     pub(crate) const CAMERA: u32 = 2;
     /// Everything that happens to the ray.
     pub(crate) const INTEGRATOR: u32 = 3;
-    /// Where it is learnt what a path found.
-    pub(crate) const PRACTICE: u32 = 4;
 }
 
 /// The random numbers of a picture.

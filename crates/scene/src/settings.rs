@@ -246,7 +246,7 @@ pub struct RenderSettings {
     pub caustic_radius: Option<f32>,
     /// Whether paths learn where light comes from.
     pub guiding: Guiding,
-    /// Paths that are followed for practice, from 1 to [`Self::MOST_GUIDING_PATHS`], where guiding is asked for; an eighth of the camera
+    /// Paths that are followed for practice, from 1 to [`Self::MOST_GUIDING_PATHS`], where guiding is asked for; a quarter of the camera
     /// rays of the picture, as far as `samples` says, if `None`.
     pub guiding_paths: Option<u32>,
     /// Which of many lights paths ask.

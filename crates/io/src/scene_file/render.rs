@@ -25,7 +25,7 @@
 //! # caustic_photons = 100000     # photons for each sample
 //! # caustic_radius = 0.01        # metres around a point in which they count at first; by the size of the glass if left out
 //! guiding = "none"               # "learn": paths learn where light comes from before they are counted; under "path"
-//! # guiding_paths = 1000000      # paths for practice; an eighth of the camera rays if left out
+//! # guiding_paths = 1000000      # paths for practice; a quarter of the camera rays if left out
 //! light_choice = "tree"          # which of many lights paths ask; "power", "uniform"
 //! ao_samples = 16                # rays per point of the integrator "ambient_occlusion"
 //! # ao_distance = 1              # their length in metres; without end if left out
@@ -104,7 +104,7 @@ pub struct RenderTable {
     /// Whether paths learn where light comes from before they are counted, under `path`: the same picture, with less noise where
     /// light comes by narrow ways. `none` if left out.
     pub guiding: Option<GuidingName>,
-    /// Paths that are followed for practice, over the whole picture; an eighth of its camera rays by `samples`, from 16384 to
+    /// Paths that are followed for practice, over the whole picture; a quarter of its camera rays by `samples`, from 16384 to
     /// 4194304, if left out.
     pub guiding_paths: Option<Placed<Whole<1, 268_435_456>>>,
     /// Which of many lights the integrators of paths ask: the noise is another, the picture the same. `tree` if left out.

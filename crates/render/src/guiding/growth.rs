@@ -11,18 +11,22 @@ use glam::Vec2;
 /// A square is divided where it holds more than this share of all.
 const LARGEST_SHARE: f32 = 0.02;
 /// And light was found in it so often: what few paths have found by chance is no reason to look nowhere else.
-const LEAST_HITS: f32 = 8.0;
+const LEAST_HITS: f32 = 3.0;
 /// So often, at most.
 const MOST_DEPTH: u32 = 14;
 /// Nodes of a tree, at most.
 const MOST_NODES: usize = 512;
 
-/// Shares of the surface that are tried.
-const OWN_SHARES: [f32; 9] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9];
+/// What was found in a turn counts so much in the next one, which has twice the paths.
+const KEPT: f32 = 0.5;
+
+/// Shares of the surface that are tried. With less of it, what was not learnt becomes rare and bright; evidence for more is of what
+/// was learnt a turn ago, and unfair to what is known now.
+const OWN_SHARES: [f32; 4] = [0.3, 0.4, 0.5, 0.6];
 /// The share where nothing is known.
 pub(super) const UNKNOWN: f32 = 0.5;
 
-/// What was found around a place in one turn.
+/// What was found around a place: in a turn, and by halves in those before.
 #[derive(Clone, Debug)]
 pub(super) struct Growth {
     /// As of [`Node`].
@@ -148,14 +152,14 @@ impl Growth {
         OWN_SHARES[(1..OWN_SHARES.len()).fold(0, best)]
     }
 
-    /// An empty one for the next turn, divided where this one has found much.
+    /// One for the next turn, divided where this one has found much, of which it keeps a part: without that, leaves with few records
+    /// would learn mostly noise.
     pub(super) fn refined(&self) -> Self {
         let old = Sums { light: self.summed(self.light.clone()), hits: self.summed(self.hits.clone()) };
         let most = LARGEST_SHARE * old.light[0].iter().sum::<f32>();
-        let mut new = Self { below: Vec::new(), ..Self::new() };
+        let evidence = self.evidence.map(|evidence| KEPT * evidence);
+        let mut new = Self { below: Vec::new(), light: Vec::new(), hits: Vec::new(), evidence };
         new.divide((self, &old), Old::Node(0), 1, most);
-        new.light = vec![[0.0; 4]; new.below.len()];
-        new.hits.clone_from(&new.light);
         new
     }
 
@@ -164,6 +168,8 @@ impl Growth {
         let (tree, sums) = before;
         let index = self.below.len();
         self.below.push([0; 4]);
+        self.light.push([0.0; 4]);
+        self.hits.push([0.0; 4]);
         for quarter in 0..4 {
             let (light, hits, below) = match from {
                 Old::Node(i) => (sums.light[i][quarter], sums.hits[i][quarter], tree.below[i][quarter]),
@@ -173,6 +179,9 @@ impl Growth {
             if is_rich && depth < MOST_DEPTH && self.below.len() < MOST_NODES {
                 let from = if below == 0 { Old::Even(light, hits) } else { Old::Node(below as usize) };
                 self.below[index][quarter] = self.divide(before, from, depth + 1, most);
+            } else {
+                self.light[index][quarter] = KEPT * light;
+                self.hits[index][quarter] = KEPT * hits;
             }
         }
         index as u32

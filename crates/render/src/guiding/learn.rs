@@ -79,7 +79,7 @@ pub(crate) fn learn(settings: GuidingSettings, course: &Course<'_>, follow: &Fol
     Some(guide)
 }
 
-/// Cuts leaves that have found light often, so that in the next turn each will find it as often as there are leaves; and the squares of their trees over directions: empty growths for the next turn.
+/// Cuts leaves that have found light often, so that in the next turn each will find it as often as there are leaves; and the squares of their trees over directions: growths for the next turn.
 fn divide(guide: &mut Guide, found: &Found) -> Vec<Growth> {
     let share = found.places.len() as f64 / found.count.max(1) as f64;
     let records = (2.0 * found.count as f64).sqrt();
@@ -149,14 +149,7 @@ impl Turn<'_> {
         rays.camera += 1;
         let mut draws = sampler.fork(branch::INTEGRATOR);
         let (found, trail) = (self.follow)(&ray, &mut draws, self.guide, rays);
-        let blur = sampler.fork(branch::PRACTICE);
-        let places = &self.guide.places;
-        for (step, mut record) in (0..).zip(trail.records(found)) {
-            // What was learnt here counts for the neighbours too: for one of them, by chance.
-            let mut draws = blur.fork(step);
-            let shift = draws.next_2d().extend(draws.next_1d()) - 0.5;
-            record.leaf = places.leaf(record.p + shift * places.extent(places.leaf(record.p)));
-            records.push(record);
-        }
+        let leaf = |record: Record| Record { leaf: self.guide.places.leaf(record.p), ..record };
+        records.extend(trail.records(found).map(leaf));
     }
 }

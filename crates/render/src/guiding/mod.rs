@@ -17,8 +17,8 @@
 //!
 //! # Source
 //! Müller, Gross, Novák, "Practical Path Guiding for Efficient Light-Transport Simulation", EGSR 2017; Müller, "Practical Path
-//! Guiding in Production", in "Path Guiding in Production", SIGGRAPH Courses 2019, chapter 10 (box filters over directions, stochastic
-//! ones over places, a learnt share of the surface). What is laid down is not the light that comes but what the surface sends on of
+//! Guiding in Production", in "Path Guiding in Production", SIGGRAPH Courses 2019, chapter 10 (box filters over directions, a
+//! learnt share of the surface). What is laid down is not the light that comes but what the surface sends on of
 //! it, weighed against what lights are asked for: of the targets that were measured it left the least noise. The root of its
 //! mean square (Rath et al., "Variance-Aware Path Guiding", SIGGRAPH 2020) was no better here.
 
@@ -44,7 +44,7 @@ use heliostat_scene::settings::{Guiding, IntegratorKind};
 use places::Places;
 
 /// Camera rays of the picture for each path of practice.
-const RAYS_PER_PATH: u64 = 8;
+const RAYS_PER_PATH: u64 = 4;
 /// Fewer paths learn nothing.
 const LEAST_PATHS: u64 = 1 << 14;
 /// More learn little more.

@@ -10,14 +10,13 @@
 use glam::{DVec3, Vec3};
 
 /// Leaves, at most.
-const MOST_LEAVES: usize = 1 << 13;
+const MOST_LEAVES: u32 = 1 << 13;
 
 /// A tree over all of space.
 #[derive(Clone, Debug)]
 pub(super) struct Places {
     nodes: Vec<Node>,
-    /// By leaves: the size of the box around the points that it was made from.
-    extents: Vec<Vec3>,
+    leaves: u32,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +33,7 @@ enum Node {
 impl Places {
     /// One leaf.
     pub(super) fn new() -> Self {
-        Self { nodes: vec![Node::Leaf(0)], extents: vec![Vec3::ZERO] }
+        Self { nodes: vec![Node::Leaf(0)], leaves: 1 }
     }
 
     /// The leaf that holds a point.
@@ -49,17 +48,12 @@ impl Places {
         }
     }
 
-    /// The size of the box around the points that a leaf was made from.
-    pub(super) fn extent(&self, leaf: u32) -> Vec3 {
-        self.extents[leaf as usize]
-    }
-
     /// Cuts leaves that hold more than `most` of the points. What each leaf comes from: those from before keep their
     /// numbers.
     pub(super) fn divide(&mut self, points: &[Vec3], most: usize) -> Vec<u32> {
-        let mut held = vec![Vec::new(); self.extents.len()];
+        let mut held = vec![Vec::new(); self.leaves as usize];
         points.iter().for_each(|&p| held[self.leaf(p) as usize].push(p));
-        let mut origins: Vec<u32> = (0..self.extents.len() as u32).collect();
+        let mut origins: Vec<u32> = (0..self.leaves).collect();
         for at in 0..self.nodes.len() {
             if let Node::Leaf(leaf) = self.nodes[at] {
                 let points = std::mem::take(&mut held[leaf as usize]);
@@ -72,13 +66,7 @@ impl Places {
     /// Cuts a leaf until none of its parts holds more than `most` points.
     fn cut(&mut self, at: usize, mut points: Vec<Vec3>, most: usize, origins: &mut Vec<u32>) {
         let Node::Leaf(leaf) = self.nodes[at] else { return };
-        if points.is_empty() {
-            return;
-        }
-        let (min, max) =
-            points.iter().fold((points[0], points[0]), |(min, max), p| (min.min(*p), max.max(*p)));
-        self.extents[leaf as usize] = max - min;
-        if points.len() <= most || self.extents.len() >= MOST_LEAVES {
+        if points.len() <= most.max(1) || self.leaves >= MOST_LEAVES {
             return;
         }
         let axis = widest(&points);
@@ -88,10 +76,10 @@ impl Places {
         if below.is_empty() {
             return;
         }
-        let (first, other) = (self.nodes.len(), self.extents.len() as u32);
+        let (first, other) = (self.nodes.len(), self.leaves);
         self.nodes[at] = Node::Cut { axis: axis as u8, at: cut, first: first as u32 };
         self.nodes.extend([Node::Leaf(leaf), Node::Leaf(other)]);
-        self.extents.push(Vec3::ZERO);
+        self.leaves += 1;
         origins.push(origins[leaf as usize]);
         self.cut(first, below, most, origins);
         self.cut(first + 1, above, most, origins);

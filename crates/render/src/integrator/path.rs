@@ -407,8 +407,9 @@ impl Way {
     /// Ends it by chance if it carries little.
     #[inline]
     fn roulette(&mut self, draws: &mut Sampler) -> ControlFlow<()> {
-        // What is led to where the light is weighs little, and matters all the same.
-        self.weight /= survive(self.likelier * self.weight, self.depth.total, draws)?;
+        // What is led to where the light is weighs little, and matters all the same; what guiding would rather have left out weighs
+        // much, and must not become rarer and brighter still.
+        self.weight /= survive(self.likelier.max(1.0) * self.weight, self.depth.total, draws)?;
         ControlFlow::Continue(())
     }
 }
