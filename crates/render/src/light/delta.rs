@@ -3,6 +3,7 @@
 use super::choice::Reach;
 use super::cluster::{self, Cluster};
 use super::{LightSample, Target, Use};
+use crate::medium::flight::Way;
 use glam::{Vec2, Vec3};
 use heliostat_geometry::warp::{cone_pdf, square_to_cone};
 use heliostat_geometry::{Aabb, OrthonormalFrame};
@@ -36,6 +37,33 @@ struct Cone {
     axis: Vec3,
     cos_inner: f32,
     cos_outer: f32,
+}
+
+impl Cone {
+    /// The part of a way inside of a cone below a right angle with its tip there; ends before it begins where there is none.
+    ///
+    /// # Source
+    /// With `v` the way from the tip, a point is inside where `v . axis >= cos |v|`: squared, that is a quadratic equation.
+    fn clip(&self, way: &Way, tip: Vec3) -> Way {
+        let (to_origin, cos_squared) = (way.origin - tip, self.cos_outer * self.cos_outer);
+        let (height, rise) = (to_origin.dot(self.axis), way.dir.dot(self.axis));
+        let a = rise * rise - cos_squared;
+        let b = height * rise - cos_squared * to_origin.dot(way.dir);
+        let c = height * height - cos_squared * to_origin.length_squared();
+        let none = Way { to: way.from, ..*way };
+        let root = (b * b - a * c).max(0.0).sqrt();
+        let (p, q) = ((-b - root) / a, (-b + root) / a);
+        let (first, last) = (p.min(q), p.max(q));
+        // A way that is steeper than the cone is inside from where it comes in on the side of the light; others pass through.
+        let (from, to) = match a > 0.0 {
+            true if rise > 0.0 => (last, f32::INFINITY),
+            true => (f32::NEG_INFINITY, first),
+            false if b * b < a * c || height + 0.5 * (first + last) * rise < 0.0 => return none,
+            false => (first, last),
+        };
+        let (from, to) = (way.from.max(from), way.to.min(to));
+        if from < to { Way { from, to, ..*way } } else { none }
+    }
 }
 
 impl PointLight {
@@ -122,6 +150,14 @@ impl PointLight {
     /// What it sends in the unit direction `dir`, in W/sr.
     pub(super) fn intensity(&self, dir: Vec3) -> Rgb {
         self.share(dir) * self.intensity
+    }
+
+    /// The part of a way that may be lit: for a spot, what lies in its cone.
+    pub(super) fn lit(&self, way: &Way) -> Way {
+        match &self.spread {
+            Spread::Cone(cone) if cone.cos_outer > 0.0 => cone.clip(way, self.position),
+            Spread::Even | Spread::Cone(_) | Spread::Measured(..) => *way,
+        }
     }
 
     /// The share of its intensity that it sends in the unit direction `dir`.
@@ -220,5 +256,38 @@ impl DirectionalLight {
             self.frame.z
         };
         LightSample { to_light, arriving: self.intensity, pdf: self.pdf, target: Target::Sky }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sampler::Sampler;
+    use heliostat_geometry::warp::square_to_sphere;
+
+    #[test]
+    fn ways_are_clipped_to_what_a_spot_lights() {
+        let (tip, n) = (Vec3::new(0.3, 2.0, -0.5), 4000);
+        let mut lit = 0;
+        for i in 0..n {
+            let mut draws = Sampler::new(4, [0, 1], i);
+            let (axis, dir) = (square_to_sphere(draws.next_2d()), square_to_sphere(draws.next_2d()));
+            let outer = 0.05 + 1.4 * draws.next_1d();
+            let lamp = PointLight::new(Rgb::ONE, tip, Falloff::InverseSquare).into_cone(axis, 0.0, outer);
+            let origin = tip + 3.0 * draws.next_1d() * square_to_sphere(draws.next_2d());
+            let way = Way { origin, dir, from: 0.5, to: 6.0 };
+            let part = lamp.lit(&way);
+            assert!(way.from <= part.from && part.to <= way.to);
+            for k in 0..64 {
+                let t = 0.5 + 5.5 * (k as f32 + 0.5) / 64.0;
+                let cos = (way.at(t) - tip).normalize().dot(axis);
+                // Rounding decides at the border.
+                if (cos - outer.cos()).abs() > 1e-4 {
+                    assert_eq!(part.from < t && t < part.to, cos > outer.cos(), "{i}: {t} in {part:?}");
+                    lit += usize::from(cos > outer.cos());
+                }
+            }
+        }
+        assert!(lit > 1000, "{lit}");
     }
 }

@@ -2,6 +2,7 @@
 
 use super::choice::{Piece, Reach};
 use super::{LightSample, LightTable, Lookout, PreparedLight, Source, sums};
+use crate::medium::flight::Way;
 use glam::Vec3;
 
 /// The choice among lamps that are points.
@@ -47,6 +48,14 @@ impl LightTable<'_> {
                 Some((point.position(), sums::share(&self.points.sums, light) as f32))
             }
             Source::Point(_) | Source::Directional(_) | Source::Area(_) | Source::Sun(..) => None,
+        }
+    }
+
+    /// The part of a way that a lamp may light.
+    pub(crate) fn lit_by_lamp(&self, light: usize, way: &Way) -> Way {
+        match &self.lights[light].source {
+            Source::Point(point) => point.lit(way),
+            Source::Directional(_) | Source::Area(_) | Source::Sun(..) => *way,
         }
     }
 

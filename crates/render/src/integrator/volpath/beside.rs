@@ -2,8 +2,8 @@
 //!
 //! A flight ends where the medium says, and seldom close to a lamp, though light there grows with one over the square of
 //! the distance: the glow around a lamp is all sparks. So of each way through a medium that is the same everywhere a second point is
-//! drawn for one of the lamps that are points, even by the angle under which the lamp sees the way. Both points ask the
-//! lamp, each by the share that the other would not have found.
+//! drawn for one of the lamps that are points, even by the angle under which the lamp sees the way, for a spot the part in
+//! its cone. Both points ask the lamp, each by the share that the other would not have found.
 //!
 //! # Source
 //! Kulla, Fajardo, "Importance Sampling Techniques for Path Tracing in Participating Media", EGSR 2012 (equi-angular sampling).
@@ -73,7 +73,7 @@ impl<'a, 's> Stretch<'a, 's> {
         let u = draws.next_2d();
         let lights = step.world.light_table();
         let Some((lamp, at)) = lights.pick_lamp(u.x) else { return Rgb::ZERO };
-        let t = Seen::new(&self.way, at).draw(u.y);
+        let t = Seen::new(&lights.lit_by_lamp(lamp, &self.way), at).draw(u.y);
         let own = self.density(step, lamp, t);
         let is_on_way = self.way.from < t && t < self.way.to && own > 0.0;
         let p = self.way.at(t);
@@ -94,10 +94,11 @@ impl<'a, 's> Stretch<'a, 's> {
 
     /// The density with which a distance is drawn for a lamp here, the choice of the lamp included.
     fn density(&self, step: &Step<'_, '_, '_>, lamp: usize, t: f32) -> f32 {
-        match step.world.light_table().lamp(lamp) {
-            Some((at, probability)) => probability * Seen::new(&self.way, at).density(t),
-            None => 0.0,
-        }
+        let lights = step.world.light_table();
+        let Some((at, probability)) = lights.lamp(lamp) else { return 0.0 };
+        let lit = lights.lit_by_lamp(lamp, &self.way);
+        let is_lit = lit.from < t && t < lit.to;
+        if is_lit { probability * Seen::new(&lit, at).density(t) } else { 0.0 }
     }
 
     fn lookout(&self, step: &Step<'_, '_, '_>, t: f32) -> Lookout {
