@@ -361,10 +361,10 @@ impl<'a> PathPoint<'a> {
             let is_straight = self.material.surface.passes_straight();
             return Onward { dir: -self.normals.view, is_back: false, is_straight, sample };
         }
-        let (height, is_back) = (dir.dot(self.normals.ng), sample.wi.z > 0.0);
+        let (height, is_back) = (dir.dot(self.normals.ng), sample.wi.z >= 0.0);
         let is_astray = (height > 0.0) != is_back;
         let dir = if is_astray { dir - 2.0 * height * self.normals.ng } else { dir };
-        Onward { dir, is_back: sample.wi.z >= 0.0, is_straight: false, sample }
+        Onward { dir, is_back, is_straight: false, sample }
     }
 
     /// What a way through the surface enters or leaves.

@@ -119,9 +119,7 @@ impl Path {
             guiding: GuidingSettings::of(settings),
         }
     }
-}
 
-impl Path {
     /// The paths of some samples, guided if they are.
     fn ready<'a>(
         &'a self,
